@@ -1,0 +1,52 @@
+# Every third-party library, its least version and the Debian packages that bring it, in one place.
+# packages.txt says what each package is for; tools/check_files.py compares the two.
+
+# leafhull_require(NAME VERSION PACKAGES [ARGS...]): find_package(NAME ARGS...) that checks the
+# version and says what to install. What the find modules print themselves is noise: the warning that
+# Debian's Imath lacks its Python library, for one, is not about anything that leafhull links.
+macro(leafhull_require name version packages)
+  set(CMAKE_MESSAGE_LOG_LEVEL WARNING)
+  find_package(${name} QUIET ${ARGN})
+  unset(CMAKE_MESSAGE_LOG_LEVEL)
+  set(found_version "${${name}_VERSION}")
+  if(NOT found_version)
+    set(found_version "${${name}_VERSION_STRING}")
+  endif()
+  if(NOT ${name}_FOUND)
+    message(FATAL_ERROR "leafhull needs ${name} ${version} or newer and found none. "
+                        "On Debian: apt-get install ${packages}")
+  elseif(found_version VERSION_LESS "${version}")
+    message(FATAL_ERROR "leafhull needs ${name} ${version} or newer and found '${found_version}'. "
+                        "On Debian: apt-get install ${packages}")
+  endif()
+  message(STATUS "${name} ${found_version}")
+endmacro()
+
+leafhull_require(OpenCL 1.2 "ocl-icd-opencl-dev opencl-c-headers opencl-clhpp-headers")
+leafhull_require(TBB 2021.0 "libtbb-dev" CONFIG)
+
+# OpenVDB's module stops with a message of its own where these two are missing.
+leafhull_require(Boost 1.74 "libboost-iostreams-dev" COMPONENTS iostreams)
+leafhull_require(ZLIB 1.2 "zlib1g-dev")
+find_path(LEAFHULL_OPENVDB_MODULE FindOpenVDB.cmake
+  PATHS ${CMAKE_PREFIX_PATH} ${CMAKE_SYSTEM_PREFIX_PATH}
+  PATH_SUFFIXES lib/${CMAKE_LIBRARY_ARCHITECTURE}/cmake/OpenVDB lib/cmake/OpenVDB
+  DOC "The folder of FindOpenVDB.cmake")
+mark_as_advanced(LEAFHULL_OPENVDB_MODULE)
+if(LEAFHULL_OPENVDB_MODULE)
+  list(APPEND CMAKE_MODULE_PATH ${LEAFHULL_OPENVDB_MODULE})
+endif()
+leafhull_require(OpenVDB 10.0 "libopenvdb-dev")
+
+leafhull_require(TinyGLTF 2.7 "libtinygltf-dev" CONFIG)
+leafhull_require(tinyobjloader 2.0.0 "libtinyobjloader-dev" CONFIG)
+leafhull_require(nlohmann_json 3.11 "nlohmann-json3-dev" CONFIG)
+leafhull_require(draco 1.5 "libdraco-dev" CONFIG)
+leafhull_require(meshoptimizer 0.18 "libmeshoptimizer-dev" CONFIG)
+list(APPEND CMAKE_MODULE_PATH ${CMAKE_CURRENT_LIST_DIR})
+leafhull_require(stb 0 "libstb-dev")
+leafhull_require(Eigen3 3.4 "libeigen3-dev" CONFIG)
+leafhull_require(CLI11 2.1 "libcli11-dev" CONFIG)
+
+# Debian's libdraco exports another version of tinygltf's symbols: the linker must meet ours first.
+target_link_libraries(TinyGLTF::TinyGLTF INTERFACE draco::draco)

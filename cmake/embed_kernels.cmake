@@ -1,0 +1,17 @@
+# leafhull_embed_kernels(TARGET FILE...): compiles OpenCL sources into TARGET as raw bytes, their
+# #include "x.clh" lines replaced by the file. See embed_kernel.cmake for the generated code.
+function(leafhull_embed_kernels target)
+  set(headers "")
+  file(GLOB headers CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/kernels/*.clh)
+  foreach(source IN LISTS ARGN)
+    get_filename_component(name ${source} NAME_WE)
+    set(generated ${CMAKE_CURRENT_BINARY_DIR}/kernels/${name}.cpp)
+    add_custom_command(
+      OUTPUT ${generated}
+      COMMAND ${CMAKE_COMMAND} -DSOURCE=${source} -DOUTPUT=${generated} -DNAME=${name}
+              -P ${PROJECT_SOURCE_DIR}/cmake/embed_kernel.cmake
+      DEPENDS ${source} ${headers} ${PROJECT_SOURCE_DIR}/cmake/embed_kernel.cmake
+      COMMENT "Embedding ${name}.cl" VERBATIM)
+    target_sources(${target} PRIVATE ${generated})
+  endforeach()
+endfunction()

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+
+#include "leafhull/vec.h"
+
+namespace leafhull::preview {
+
+/// A pinhole camera with a long lens, slightly above the tree.
+struct Camera {
+  Vec3f eye, right, up, forward;
+  float tan_x, tan_y;  ///< of half the angle of view
+
+  /// The direction through (x, y), both 0..1 over the picture, from its top left; not normalised.
+  Vec3f direction(float x, float y) const {
+    return forward + right * ((2 * x - 1) * tan_x) + up * ((1 - 2 * y) * tan_y);
+  }
+};
+
+/// The camera whose picture of `aspect` (width / height) holds `points` with a margin.
+Camera frame(std::span<const Vec3f> points, float aspect);
+
+}  // namespace leafhull::preview

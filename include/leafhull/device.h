@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace leafhull {
+
+/// An OpenCL device as `leafhull devices` lists it.
+struct DeviceInfo {
+  std::string name, platform, version, driver;
+  std::string type;           ///< "CPU", "GPU" or "other"
+  std::string variant;        ///< the density kernel used there: "vector" or "work-item"
+  int compute_units = 0;
+  std::size_t memory_bytes = 0;
+  bool usable = false;
+  bool chosen = false;
+  std::string reason;         ///< why it is usable or not, chosen or not
+};
+
+struct DeviceOptions {
+  std::string choice;   ///< index or part of a name; empty: a GPU if there is one, else a CPU
+  int threads = 0;      ///< bounds OpenCL (PoCL) and TBB; 0: all cores
+  std::string variant;  ///< "vector" or "work-item"; empty: by device type
+};
+
+/// Every OpenCL device, in the order of their indices, and which one `options` would choose.
+/// Empty where no platform is installed.
+std::vector<DeviceInfo> list_devices(const DeviceOptions& options);
+
+/// An opened OpenCL device with leafhull's programs. One at a time uses the machine's cores: its
+/// work and TBB's never overlap.
+class Device {
+ public:
+  /// @throws Error device: none, no such one, or a program that does not build (with its log).
+  explicit Device(const DeviceOptions& options);
+  ~Device();
+  Device(Device&&) noexcept;
+  Device& operator=(Device&&) noexcept;
+
+  const DeviceInfo& info() const;
+  /// The bound on host threads, 0: all cores.
+  int threads() const;
+
+  struct Engine;
+  Engine& engine() { return *engine_; }
+
+ private:
+  std::unique_ptr<Engine> engine_;
+};
+
+}  // namespace leafhull

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "leafhull/tree.h"
+#include "leafhull/vec.h"
+
+namespace leafhull {
+
+/// A leaf's ellipse drawn in texture space: its centre and two half-axis vectors.
+struct TextureEllipse {
+  Vec2d centre, a, b;
+};
+
+struct LeafOptions {
+  std::vector<std::string> globs;         ///< empty: alpha mode and usual names decide
+  std::optional<TextureEllipse> ellipse;  ///< empty: the alpha texture, else the triangles
+  double scale = 1;                       ///< multiplies R_u and R_v; > 0
+};
+
+/// Where a kernel sits: a vertex of a leaf with the leaf's frame. The third axis is normal x major.
+struct LeafVertex {
+  Vec3d position;        ///< c_j, model units
+  Vec3f normal;          ///< n_j, unit
+  Vec3f major;           ///< u_j, unit, orthogonal to the normal
+  float radius_major;    ///< R_u, model units
+  float radius_minor;    ///< R_v <= R_u
+  std::uint32_t leaf;    ///< which leaf, below LeafSet::leaf_count
+};
+
+struct LeafSet {
+  std::vector<LeafVertex> vertices;  ///< in an order that depends on the geometry alone
+  std::size_t leaf_count = 0;
+  std::size_t dropped_leaves = 0;    ///< zero area, no usable normal or not finite
+  std::size_t split_components = 0;  ///< components that were not one flat leaf
+  double mean_radius_major = 0;      ///< mean R_u over the leaves, model units
+  Box bounds;                        ///< of the vertices
+  std::vector<std::string> warnings;
+};
+
+/// How one primitive of a file looks to the choice of leaves.
+struct PrimitiveSummary {
+  std::string material, mesh, node;
+  AlphaMode alpha_mode = AlphaMode::opaque;
+  std::size_t instances = 0, vertices = 0, triangles = 0;
+  bool leaves = false;  ///< would be taken as leaves
+};
+
+/// One row per primitive and distinct node name, in file order. SPEC: 1, "which primitives are leaves".
+std::vector<PrimitiveSummary> summarize(const TreeModel& tree, const LeafOptions& options);
+
+/// The leaves of a tree, one kernel frame at every leaf vertex. SPEC: 1; Source: Eqs. (5), (6), p. 51.
+/// @throws Error input where nothing matches (the names in the file are listed) or nothing is usable;
+///         usage where an option is out of range.
+LeafSet find_leaves(const TreeModel& tree, const LeafOptions& options);
+
+}  // namespace leafhull

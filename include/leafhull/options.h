@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "leafhull/leaves.h"
+
+namespace leafhull {
+
+enum class Style { painterly, thin, fat, luft_deussen };
+enum class Method { isotropic, uncontrolled, controlled };
+enum class RadiusUnit { crown, leaf, model };
+enum class Spread { stddev, variance };
+enum class DensitySource { exact, grid };
+enum class Preset { paper_32, paper_64, paper_128, draft, standard, fine, ultra, film };
+
+/// Every choice of an extraction. What is empty is set by the style or follows from another option:
+/// `resolve` fills it in. Ranges, units and defaults stand in `option_table()`.
+struct Options {
+  // Leaves
+  std::vector<std::string> leaves;
+  std::optional<TextureEllipse> ellipse;
+  double leaf_scale = 1;
+
+  // Shape
+  Style style = Style::painterly;
+  std::optional<Method> method;
+  std::optional<double> threshold;          ///< T itself
+  std::optional<double> threshold_percent;  ///< T as a percentage of m
+  std::optional<double> coverage;           ///< T as a quantile of N over the leaf vertices
+  std::optional<double> radius_max;         ///< R_max in radius_unit
+  RadiusUnit radius_unit = RadiusUnit::crown;
+  std::optional<double> flatness;           ///< lambda_R
+  int falloff = 2;                          ///< k
+  Spread spread = Spread::stddev;
+  DensitySource density = DensitySource::exact;
+  double band_low = 0;                      ///< a1
+  double band_high = 2;                     ///< a2
+  std::optional<double> min_component;
+
+  // Resolution and surface: at most one of the first three is set by a user
+  std::optional<Preset> preset;
+  std::optional<int> resolution;
+  std::optional<double> voxel_size;  ///< model units
+  bool dense = false;
+  bool snap = true;
+  double adaptivity = 0;
+
+  LeafOptions leaf_options() const { return {leaves, ellipse, leaf_scale}; }
+};
+
+/// The names of an enumeration's values, in order.
+std::span<const std::string_view> names(Style);
+std::span<const std::string_view> names(Method);
+std::span<const std::string_view> names(RadiusUnit);
+std::span<const std::string_view> names(Spread);
+std::span<const std::string_view> names(DensitySource);
+std::span<const std::string_view> names(Preset);
+
+template <class Enum>
+std::string_view name(Enum value) {
+  return names(value)[static_cast<std::size_t>(value)];
+}
+
+/// Voxels along the longest side.
+int resolution_of(Preset preset);
+
+/// `options` with the style's values where nothing was asked for, everything checked. Afterwards
+/// `method`, `radius_max`, `flatness` and `min_component` are set, exactly one of the three
+/// thresholds is, and `resolution` or `voxel_size` is.
+/// @throws Error usage: a value out of range, or two options that contradict each other.
+Options resolve(Options options);
+
+/// One row per option: the flags, the report's parameters and README's table derive from it.
+struct OptionRow {
+  using Member =
+      std::variant<bool Options::*, int Options::*, double Options::*, std::optional<int> Options::*,
+                   std::optional<double> Options::*, Style Options::*, std::optional<Method> Options::*,
+                   RadiusUnit Options::*, Spread Options::*, DensitySource Options::*,
+                   std::optional<Preset> Options::*, std::vector<std::string> Options::*,
+                   std::optional<TextureEllipse> Options::*>;
+
+  /// As in the flag --name and, with underscores, in the report. What is on by default has the
+  /// flag --no-name.
+  std::string_view name;
+  std::string_view group;          ///< "Leaves", "Shape", "Resolution", ...
+  std::string_view unit = "";      ///< "" where it has none
+  std::string_view range = "";     ///< in words or as an interval, e.g. "(0, 1]"
+  std::string_view default_value;  ///< in words, e.g. "by style"
+  std::string_view help;
+  Member member;
+  double low = 0, high = 0;        ///< bounds of a number
+  bool low_open = false;           ///< the lower bound itself is excluded
+};
+
+std::span<const OptionRow> option_table();
+
+}  // namespace leafhull

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "leafhull/shape.h"
+
+namespace leafhull {
+
+/// The files that one extraction writes.
+struct OutputFiles {
+  std::vector<std::filesystem::path> shapes = {};  ///< .glb .gltf .obj .ply .stl .vdb, by extension
+  std::optional<std::filesystem::path> kernels = {};  ///< .ply
+  std::optional<std::filesystem::path> field = {};    ///< .vdb
+  std::optional<std::filesystem::path> report = {};   ///< .json; "-" is standard output
+};
+
+/// What the report says beside the extraction itself.
+struct RunDescription {
+  std::string input;
+  std::vector<std::string> command;
+};
+
+/// Looks at the names before any work is done.
+/// @throws Error usage: an unknown extension, one file named twice, or the input itself;
+///         output: a folder that does not exist or cannot be written to.
+void check_outputs(const OutputFiles& files, const std::filesystem::path& input);
+
+/// Writes everything under temporary names, then renames: all files or none.
+/// @throws Error output: which file and why.
+void write_outputs(const OutputFiles& files, const Shape& shape, const RunDescription& run);
+
+/// The report as one JSON object, schema "leafhull-report/1". SPEC: 7.
+std::string report_json(const Report& report, const RunDescription& run);
+
+/// Removes the temporary files of a write that is under way. Async-signal-safe.
+void discard_unfinished_outputs() noexcept;
+
+}  // namespace leafhull

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "leafhull/device.h"
+#include "leafhull/leaves.h"
+#include "leafhull/options.h"
+#include "leafhull/vec.h"
+
+namespace leafhull {
+
+/// A density function D_j: its centre, two of its axes and its radii after control; the third axis
+/// is normal x major. Source: Eqs. (3), (4), (8).
+struct Kernel {
+  Vec3d centre;         ///< c_j, model units
+  Vec3f normal, major;  ///< n_j, u_j, unit, orthogonal
+  float radius_major, radius_minor, radius_normal;  ///< R_u, R_v, R_n, model units, > 0
+};
+
+/// A closed triangle mesh, counter-clockwise seen from outside. A vertex is at origin + positions[i];
+/// the origin is zero unless the tree lies so far out that floats would lose the shape.
+struct Mesh {
+  Vec3d origin;
+  std::vector<Vec3f> positions;
+  std::vector<Vec3f> normals;  ///< -grad N / |grad N|
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+};
+
+/// The sampled density; only leafhull's own stages look inside.
+class Field;
+
+struct DensityStatistics {  ///< of N_iso over the leaf vertices
+  double mean = 0, variance = 0, p1 = 0, p2 = 0;
+};
+
+struct Metrics {  ///< SPEC: 6; Source: section 4
+  std::uint64_t dilated_voxels = 0, inside_voxels = 0, on_voxels = 0;
+  std::uint64_t off_site_exact = 0, off_site_sampled = 0;
+};
+
+struct Counts {
+  std::uint64_t leaves = 0, leaf_vertices = 0, dropped_leaves = 0, split_components = 0;
+  std::uint64_t evaluated_voxels = 0, evaluated_pairs = 0;
+  std::uint64_t mesh_vertices = 0, mesh_triangles = 0, components = 0, dropped_components = 0;
+};
+
+struct StageTime {
+  std::string stage;
+  double seconds = 0;
+};
+
+/// What an extraction did, for people and for `--report`.
+struct Report {
+  Options options;                ///< resolved
+  double threshold = 0;           ///< T
+  double radius_max_model = 0;    ///< R_max, model units
+  int resolution = 0;             ///< voxels along the longest side
+  double voxel_size = 0;          ///< h, model units
+  std::string device;
+  Counts counts;
+  DensityStatistics density;
+  Metrics metrics;
+  std::vector<StageTime> seconds;  ///< in order, the total last
+  std::uint64_t peak_memory_bytes = 0;
+  std::vector<std::string> warnings;
+};
+
+struct Shape {
+  Mesh mesh;
+  std::vector<Kernel> kernels;              ///< one per leaf vertex, in LeafSet order
+  std::vector<float> isotropic_density;     ///< N_iso(c_j), one per kernel
+  std::shared_ptr<const Field> field;
+  Report report;
+};
+
+/// Called from the calling thread at the start of each stage and as it goes on, `done` from 0 to 1.
+using Progress = std::function<void(std::string_view stage, double done)>;
+
+/// The abstract shape of a tree's leaves: the stages of Figure 8, one after the other. SPEC: 2 to 6.
+/// @throws Error usage: options, or a resolution that does not fit in memory; device; empty: no
+///         sample reaches the threshold, or everything is inside.
+Shape extract(const LeafSet& leaves, const Options& options, Device& device, const Progress& progress = {});
+
+}  // namespace leafhull

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "leafhull/vec.h"
+
+namespace leafhull {
+
+/// Decoded pixels, 8 bits each of red, green, blue, alpha, rows from the top. Empty where an image
+/// could not be read.
+struct Image {
+  int width = 0;
+  int height = 0;
+  std::vector<std::uint8_t> rgba;
+  bool empty() const { return rgba.empty(); }
+};
+
+enum class AlphaMode { opaque, mask, blend };
+enum class Wrap { repeat, clamp, mirror };
+
+struct Material {
+  std::string name;
+  AlphaMode alpha_mode = AlphaMode::opaque;
+  double alpha_cutoff = 0.5;                        ///< of `mask`; 0..1
+  std::array<float, 4> base_color{1, 1, 1, 1};      ///< linear, multiplies the image
+  int base_color_image = -1;                        ///< into TreeModel::images, -1: none
+  Wrap wrap_u = Wrap::repeat, wrap_v = Wrap::repeat;
+};
+
+/// Triangles of one material in the space of their mesh.
+struct Primitive {
+  std::string mesh_name;
+  int material = -1;               ///< into TreeModel::materials, -1: none
+  std::vector<Vec3f> positions;    ///< finite
+  std::vector<Vec3f> normals;      ///< as many as positions, or none
+  std::vector<Vec2f> uvs;          ///< for base_color_image, its texture transform applied; v down; or none
+  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< every index is below positions.size()
+};
+
+/// An affine map in three rows: x' = row . (x, y, z, 1).
+using Transform = std::array<std::array<double, 4>, 3>;
+inline constexpr Transform kIdentity{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
+
+/// A primitive placed in the scene.
+struct Instance {
+  std::uint32_t primitive = 0;
+  std::string node_name;
+  Transform to_world = kIdentity;
+};
+
+/// What a tree file holds. Instances share primitives.
+struct TreeModel {
+  std::filesystem::path path;
+  std::vector<Image> images;
+  std::vector<Material> materials;
+  std::vector<Primitive> primitives;
+  std::vector<Instance> instances;
+  std::vector<std::string> warnings;  ///< what was passed over, one line each
+};
+
+/// Reads glTF 2.0 (.glb, .gltf) or Wavefront OBJ; the default scene's nodes become instances,
+/// EXT_mesh_gpu_instancing included. SPEC: 1.
+/// @throws Error input: the file, its name, and what is wrong at which place in it.
+TreeModel read_tree(const std::filesystem::path& path);
+
+}  // namespace leafhull

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+// N at the samples of a brick, for CPUs: one work-item per brick, explicit vectors.
+//
+// A brick is eight sub-bricks of 4 x 4 x 4. Kernels are taken in runs of RUN: each is first tested
+// against the eight sub-bricks at once (a float8, the bound xi_min of SPEC 5) and entered in the lists
+// of those it reaches; then every sub-brick sums its list, a float16 holding 4 x 4 samples of y and z.
+// Sums go in the order of the list, so they do not depend on RUN.
+//
+// Global size: the number of bricks; local size 1.
+#include "density.clh"
+
+#ifndef RUN
+#define RUN 64
+#endif
+
+// The rounding of a position, as a share of the sub-brick, and of xi.
+#define POSITION_SLACK 1.00001f
+#define XI_SLACK 1.0001f
+
+typedef struct {
+  float axes[RUN][9];
+  float from_kernel[8][RUN][3];  // axes . (centre of the sub-brick - centre of the kernel)
+  uint slot[8][RUN];             // into axes
+  int count[8];
+} Run;
+
+static void list_run(global const Kernel* kernels, global const uint* list, int count, int4 origin,
+                     Run* run) {
+  const float8 qx = (float8)(1.5f, 1.5f, 1.5f, 1.5f, 5.5f, 5.5f, 5.5f, 5.5f);
+  const float8 qy = (float8)(1.5f, 1.5f, 5.5f, 5.5f, 1.5f, 1.5f, 5.5f, 5.5f);
+  const float8 qz = (float8)(1.5f, 5.5f, 1.5f, 5.5f, 1.5f, 5.5f, 1.5f, 5.5f);
+  for (int s = 0; s < 8; ++s) run->count[s] = 0;
+
+  for (int i = 0; i < count; ++i) {
+    global const Kernel* k = kernels + list[i];
+    const float8 dx = qx - ((float)(k->cell[0] - origin.x) + k->offset[0]);
+    const float8 dy = qy - ((float)(k->cell[1] - origin.y) + k->offset[1]);
+    const float8 dz = qz - ((float)(k->cell[2] - origin.z) + k->offset[2]);
+    float8 xi_min = 0.0f;
+    float m[3][8];
+    for (int a = 0; a < 3; ++a) {
+      const float ax = k->axes[3 * a], ay = k->axes[3 * a + 1], az = k->axes[3 * a + 2];
+      const float e = 1.5f * POSITION_SLACK * (fabs(ax) + fabs(ay) + fabs(az));
+      const float8 ma = fma((float8)(ax), dx, fma((float8)(ay), dy, az * dz));
+      const float8 near = fmax(fabs(ma) - e, 0.0f);
+      xi_min = fma(near, near, xi_min);
+      vstore8(ma, 0, m[a]);
+      run->axes[i][3 * a] = ax;
+      run->axes[i][3 * a + 1] = ay;
+      run->axes[i][3 * a + 2] = az;
+    }
+    int hit[8];
+    vstore8(xi_min < XI_SLACK, 0, hit);
+    for (int s = 0; s < 8; ++s) {
+      const int n = run->count[s];
+      run->slot[s][n] = i;
+      run->from_kernel[s][n][0] = m[0][s];
+      run->from_kernel[s][n][1] = m[1][s];
+      run->from_kernel[s][n][2] = m[2][s];
+      run->count[s] = n - hit[s];
+    }
+  }
+}
+
+static void sum_run(const Run* run, int s, float16* n0, float16* n1, float16* n2, float16* n3) {
+  const float16 y = (float16)(-1.5f, -1.5f, -1.5f, -1.5f, -0.5f, -0.5f, -0.5f, -0.5f,  //
+                              0.5f, 0.5f, 0.5f, 0.5f, 1.5f, 1.5f, 1.5f, 1.5f);
+  const float16 z = (float16)(-1.5f, -0.5f, 0.5f, 1.5f, -1.5f, -0.5f, 0.5f, 1.5f,  //
+                              -1.5f, -0.5f, 0.5f, 1.5f, -1.5f, -0.5f, 0.5f, 1.5f);
+  float16 acc0 = *n0, acc1 = *n1, acc2 = *n2, acc3 = *n3;
+  const int count = run->count[s];
+  for (int i = 0; i < count; ++i) {
+    const float* a = run->axes[run->slot[s][i]];
+    const float* m = run->from_kernel[s][i];
+    const float16 u = fma((float16)(a[1]), y, fma((float16)(a[2]), z, (float16)(m[0])));
+    const float16 v = fma((float16)(a[4]), y, fma((float16)(a[5]), z, (float16)(m[1])));
+    const float16 n = fma((float16)(a[7]), y, fma((float16)(a[8]), z, (float16)(m[2])));
+#define ADD_SLAB(acc, x)                                                    \
+  {                                                                         \
+    const float16 pu = u + x * a[0], pv = v + x * a[3], pn = n + x * a[6];  \
+    float16 w = fma(-pu, pu, (float16)(1.0f));                              \
+    w = fmax(fma(-pn, pn, fma(-pv, pv, w)), (float16)(0.0f));               \
+    acc = ADD_POWER(acc, w);                                                \
+  }
+    ADD_SLAB(acc0, -1.5f)
+    ADD_SLAB(acc1, -0.5f)
+    ADD_SLAB(acc2, 0.5f)
+    ADD_SLAB(acc3, 1.5f)
+#undef ADD_SLAB
+  }
+  *n0 = acc0;
+  *n1 = acc1;
+  *n2 = acc2;
+  *n3 = acc3;
+}
+
+static void store_slab(float16 n, global float* row) {
+  vstore4(n.s0123, 0, row);
+  vstore4(n.s4567, 0, row + BRICK_EDGE);
+  vstore4(n.s89ab, 0, row + 2 * BRICK_EDGE);
+  vstore4(n.scdef, 0, row + 3 * BRICK_EDGE);
+}
+
+// kernels: the kernel set. origins: of each brick. first: where its list starts in `list`, and one
+// more. samples: BRICK_SAMPLES per brick. pairs: the kernel-sample pairs that each brick evaluated.
+kernel void density_bricks(global const Kernel* restrict kernels,
+                           global const int4* restrict origins, global const uint* restrict first,
+                           global const uint* restrict list, global float* restrict samples,
+                           global uint* restrict pairs) {
+  const size_t brick = get_global_id(0);
+  const int4 origin = origins[brick];
+  float16 n[8][4];
+  for (int s = 0; s < 8; ++s) {
+    n[s][0] = n[s][1] = n[s][2] = n[s][3] = (float16)(0.0f);
+  }
+  uint evaluated = 0;
+  Run run;
+  const uint end = first[brick + 1];
+  for (uint i = first[brick]; i < end; i += RUN) {
+    list_run(kernels, list + i, (int)min((uint)RUN, end - i), origin, &run);
+    for (int s = 0; s < 8; ++s) {
+      sum_run(&run, s, &n[s][0], &n[s][1], &n[s][2], &n[s][3]);
+      evaluated += (uint)run.count[s] * 64;
+    }
+  }
+  global float* out = samples + brick * BRICK_SAMPLES;
+  for (int s = 0; s < 8; ++s) {
+    global float* corner = out + (s >> 2) * 256 + (s >> 1 & 1) * 32 + (s & 1) * 4;
+    for (int x = 0; x < 4; ++x) store_slab(n[s][x], corner + x * 64);
+  }
+  pairs[brick] = evaluated;
+}

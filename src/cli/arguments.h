@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "leafhull/device.h"
+#include "leafhull/options.h"
+#include "leafhull/output.h"
+
+namespace leafhull::cli {
+
+/// What a command line asks for.
+struct Arguments {
+  std::vector<std::string> command;  ///< the words as typed
+  std::filesystem::path tree;
+  Options options;
+  std::set<std::string_view> given;  ///< names of the rows of option_table() that were typed
+  OutputFiles files;
+  DeviceOptions device;
+  bool quiet = false, verbose = false;
+  bool json = false;
+};
+
+}  // namespace leafhull::cli

@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <iterator>
+#include <span>
+#include <utility>
+
+#include "cli/console.h"
+#include "cli/signals.h"
+#include "cli/values.h"
+#include "cli/verb.h"
+#include "leafhull/error.h"
+#include "leafhull/shape.h"
+#include "leafhull/tree.h"
+
+namespace leafhull::cli {
+namespace {
+
+/// Times the stages around the extraction itself.
+class Stages {
+ public:
+  explicit Stages(Console& console) : console_(console) {}
+
+  template <class Work>
+  auto run(std::string_view stage, Work&& work) {
+    console_.progress(stage, 0);
+    const Clock::time_point begin = Clock::now();
+    auto result = work();
+    times_.push_back({std::string(stage), since(begin)});
+    return result;
+  }
+
+  /// What the extraction itself took.
+  void append(const std::vector<StageTime>& extraction) {
+    const auto is_stage = [](const StageTime& time) { return time.stage != "total"; };
+    std::copy_if(extraction.begin(), extraction.end(), std::back_inserter(times_), is_stage);
+  }
+
+  std::vector<StageTime> with_total() const {
+    std::vector<StageTime> all = times_;
+    all.push_back({"total", total()});
+    return all;
+  }
+
+  double total() const { return since(start_); }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  static double since(Clock::time_point begin) {
+    return std::chrono::duration<double>(Clock::now() - begin).count();
+  }
+
+  Console& console_;
+  Clock::time_point start_ = Clock::now();
+  std::vector<StageTime> times_;
+};
+
+std::vector<std::filesystem::path> named(const OutputFiles& files) {
+  std::vector<std::filesystem::path> all = files.shapes;
+  for (const auto& file : {files.kernels, files.field, files.report}) {
+    if (file) all.push_back(*file);
+  }
+  return all;
+}
+
+void check_arguments(const Arguments& arguments) {
+  if (arguments.quiet && arguments.verbose) {
+    throw Error(ErrorCode::usage, "--quiet and --verbose contradict each other",
+                "Give one of the two.");
+  }
+  if (named(arguments.files).empty()) {
+    throw Error(ErrorCode::usage, "no output is named",
+                "Name one, such as -o shape.glb (or --save-kernels, --save-field, --report).");
+  }
+}
+
+/// Options that were typed but change nothing.
+std::vector<std::string> without_effect(const Arguments& arguments, const Options& resolved) {
+  std::vector<std::string> warnings;
+  const auto warn = [&](std::string_view option, const std::string& why) {
+    if (arguments.given.contains(option)) {
+      warnings.push_back("--" + std::string(option) + " has no effect " + why);
+    }
+  };
+  const std::string method = "with --method " + std::string(name(*resolved.method));
+  if (*resolved.method == Method::isotropic) warn("flatness", method);
+  if (*resolved.method != Method::controlled) {
+    for (const auto option : {"band-low", "band-high", "spread"}) warn(option, method);
+  }
+  if (arguments.given.contains("radius-unit") && !arguments.given.contains("radius-max")) {
+    warnings.push_back("--radius-unit " + std::string(name(resolved.radius_unit)) +
+                       " without --radius-max: the style's " + number(*resolved.radius_max) +
+                       " counts in that unit");
+  }
+  return warnings;
+}
+
+std::uint64_t peak_memory_bytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
+}
+
+void say_summary(Console& console, const Shape& shape, const OutputFiles& files, double seconds_) {
+  const Report& report = shape.report;
+  std::string where;
+  for (const auto& file : named(files)) {
+    where += (where.empty() ? "" : ", ") + (file == "-" ? "standard output" : file.string());
+  }
+  console.say("leafhull: " + count(report.counts.mesh_vertices) + " vertices, " +
+              count(report.counts.mesh_triangles) + " triangles, " +
+              count(report.counts.components) +
+              (report.counts.components == 1 ? " component" : " components") +
+              " at T = " + number(report.threshold, 4) + " in " + seconds(seconds_) + ": " + where);
+}
+
+void say_details(Console& console, const Report& report) {
+  const Counts& counts = report.counts;
+  console.detail("device      " + report.device);
+  console.detail("leaves      " + count(counts.leaves) + " with " + count(counts.leaf_vertices) +
+                 " vertices, " + count(counts.dropped_leaves) + " dropped, " +
+                 count(counts.split_components) + " components split");
+  console.detail("lattice     " + count(static_cast<std::uint64_t>(report.resolution)) +
+                 " voxels along the longest side, each " + number(report.voxel_size, 4) +
+                 " model units; R_max " + number(report.radius_max_model, 4));
+  console.detail("evaluated   " + count(counts.evaluated_voxels) + " voxels, " +
+                 count(counts.evaluated_pairs) + " pairs");
+  console.detail("off-site    " + count(report.metrics.off_site_exact) + " exact, " +
+                 count(report.metrics.off_site_sampled) + " sampled; dilated " +
+                 count(report.metrics.dilated_voxels) + " voxels");
+  console.detail("memory      " + count(report.peak_memory_bytes >> 20) + " MiB at most");
+}
+
+/// The total, and under it every stage with its share.
+void say_times(Console& console, const std::vector<StageTime>& times) {
+  const double total = times.back().seconds;
+  std::size_t width = 0;
+  for (const StageTime& time : times) width = std::max(width, time.stage.size());
+  console.detail("total       " + seconds(total));
+  for (const StageTime& time : std::span(times).first(times.size() - 1)) {
+    std::string stage = time.stage;
+    stage.resize(width, ' ');
+    const long percent = std::lround(100 * time.seconds / total);
+    console.detail("  " + stage + "  " + seconds(time.seconds) + "  " + std::to_string(percent) +
+                   "%");
+  }
+}
+
+void run_extract(const Arguments& arguments) {
+  Console console(arguments.quiet, arguments.verbose);
+  check_arguments(arguments);
+  const Options options = resolve(arguments.options);
+  check_outputs(arguments.files, arguments.tree);
+  std::vector<std::string> warnings;
+  const auto warn = [&](const std::vector<std::string>& more) {
+    for (const std::string& warning : more) console.warn(warning);
+    warnings.insert(warnings.end(), more.begin(), more.end());
+  };
+  warn(without_effect(arguments, options));
+  catch_signals();
+
+  Stages stages(console);
+  const LeafSet leaves = [&] {  // the tree is given back before the extraction needs the memory
+    const TreeModel tree = stages.run("read", [&] { return read_tree(arguments.tree); });
+    warn(tree.warnings);
+    return stages.run("leaves", [&] { return find_leaves(tree, options.leaf_options()); });
+  }();
+  warn(leaves.warnings);
+  Device device = stages.run("device", [&] { return Device(arguments.device); });
+  Shape shape = extract(leaves, options, device, [&](std::string_view stage, double done) {
+    console.progress(stage, done);
+  });
+
+  Report& report = shape.report;
+  for (const std::string& warning : report.warnings) {
+    if (std::find(warnings.begin(), warnings.end(), warning) == warnings.end()) warn({warning});
+  }
+  report.warnings = warnings;
+  stages.append(report.seconds);
+  report.seconds = stages.with_total();
+  report.peak_memory_bytes = peak_memory_bytes();
+  stages.run("write", [&] {
+    write_outputs(arguments.files, shape, {arguments.tree.string(), arguments.command});
+    return true;
+  });
+
+  say_details(console, report);
+  say_times(console, stages.with_total());
+  say_summary(console, shape, arguments.files, stages.total());
+}
+
+}  // namespace
+
+Verb extract_verb() {
+  return {.name = "extract",
+          .summary = "the abstract shape of a tree: the main job",
+          .about = "Turns the leaves of TREE into one closed surface, their abstract shape.",
+          .examples =
+              "  leafhull extract birch.glb -o shape.glb\n"
+              "  leafhull extract birch.glb -o shape.glb --preset fine --radius-max 3\n"
+              "  leafhull extract birch.glb -o thin.glb --style thin --threshold 40%\n"
+              "  leafhull extract birch.glb --leaves '*twig*' -o shape.ply --report shape.json\n",
+          .takes_tree = true,
+          .flags = all_of(
+              {option_flags(), output_flags(), device_flags(), console_flags(), help_flags()}),
+          .run = run_extract};
+}
+
+}  // namespace leafhull::cli

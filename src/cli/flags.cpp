@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/flags.h"
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <type_traits>
+
+#include "cli/values.h"
+#include "leafhull/error.h"
+#include "leafhull/version.h"
+
+namespace leafhull::cli {
+namespace {
+
+constexpr std::string_view kVariants[] = {"vector", "work-item"};
+constexpr int kMostThreads = 1024;
+
+std::string_view metavar_of(bool) { return ""; }
+std::string_view metavar_of(int) { return "N"; }
+std::string_view metavar_of(double) { return "X"; }
+std::string_view metavar_of(const std::vector<std::string>&) { return "GLOB"; }
+std::string_view metavar_of(const TextureEllipse&) { return "cu,cv,au,av,bu,bv"; }
+
+template <class Enum>
+requires std::is_enum_v<Enum> std::string_view metavar_of(Enum) { return "NAME"; }
+
+template <class Value>
+std::string_view metavar_of(const std::optional<Value>&) {
+  return metavar_of(Value{});
+}
+
+std::string_view metavar(const OptionRow& row) {
+  return std::visit([](auto member) { return metavar_of(Options{}.*member); }, row.member);
+}
+
+std::string spelling(const OptionRow& row) {
+  const auto* flag = std::get_if<bool Options::*>(&row.member);
+  const bool on = flag != nullptr && Options{}.**flag;
+  return (on ? "--no-" : "--") + std::string(row.name);
+}
+
+Flag option_flag(const OptionRow& row) {
+  return {.spelling = spelling(row),
+          .value = metavar(row),
+          .group = row.group,
+          .unit = row.unit,
+          .range = row.range,
+          .default_value = row.default_value,
+          .help = row.help,
+          .repeatable = std::holds_alternative<std::vector<std::string> Options::*>(row.member),
+          .set = [&row](Arguments& arguments, const std::string& text) {
+            set_option(arguments.options, row, text);
+            arguments.given.insert(row.name);
+          }};
+}
+
+}  // namespace
+
+std::vector<Flag> option_flags(std::string_view group) {
+  std::vector<Flag> flags;
+  for (const OptionRow& row : option_table()) {
+    if (group.empty() || row.group == group) flags.push_back(option_flag(row));
+  }
+  return flags;
+}
+
+std::vector<Flag> output_flags() {
+  return {
+      {.spelling = "-o,--output",
+       .value = "FILE",
+       .group = "Output",
+       .range = ".glb .gltf .obj .ply .stl .vdb",
+       .default_value = "none",
+       .help = "the shape, in the format of the extension; repeatable",
+       .repeatable = true,
+       .set = [](Arguments& a, const std::string& text) { a.files.shapes.emplace_back(text); }},
+      {.spelling = "--save-kernels",
+       .value = "FILE",
+       .group = "Output",
+       .range = ".ply",
+       .default_value = "none",
+       .help = "a point per kernel with its axes, radii and density",
+       .set = [](Arguments& a, const std::string& text) { a.files.kernels = text; }},
+      {.spelling = "--save-field",
+       .value = "FILE",
+       .group = "Output",
+       .range = ".vdb",
+       .default_value = "none",
+       .help = "the sampled density as an OpenVDB grid",
+       .set = [](Arguments& a, const std::string& text) { a.files.field = text; }},
+      {.spelling = "--report",
+       .value = "FILE",
+       .group = "Output",
+       .range = ".json, or - for standard output",
+       .default_value = "none",
+       .help = "parameters, counts, metrics and times",
+       .set = [](Arguments& a, const std::string& text) { a.files.report = text; }},
+  };
+}
+
+std::vector<Flag> device_flags() {
+  return {
+      {.spelling = "--device",
+       .value = "NAME",
+       .group = "Device",
+       .range = "part of a name, or an index",
+       .default_value = "a GPU, else a CPU",
+       .help = "the OpenCL device; leafhull devices lists them",
+       .set = [](Arguments& a, const std::string& text) { a.device.choice = text; }},
+      {.spelling = "--variant",
+       .value = "NAME",
+       .group = "Device",
+       .range = "vector, work-item",
+       .default_value = "by device type",
+       .help = "the density kernel; the result is the same within rounding",
+       .set =
+           [](Arguments& a, const std::string& text) {
+             a.device.variant = kVariants[choice("--variant", text, kVariants)];
+           }},
+      {.spelling = "--threads",
+       .value = "N",
+       .group = "Device",
+       .range = "[1, 1024]",
+       .default_value = "all cores",
+       .help = "bounds the threads of OpenCL on the CPU and of TBB",
+       .set =
+           [](Arguments& a, const std::string& text) {
+             a.device.threads = whole_number("--threads", text, 1, kMostThreads);
+           }},
+  };
+}
+
+std::vector<Flag> console_flags() {
+  return {
+      {.spelling = "-q,--quiet",
+       .group = "General",
+       .default_value = "off",
+       .help = "says nothing but errors",
+       .set = [](Arguments& a, const std::string&) { a.quiet = true; }},
+      {.spelling = "-v,--verbose",
+       .group = "General",
+       .default_value = "off",
+       .help = "says what was found and how long each stage took",
+       .set = [](Arguments& a, const std::string&) { a.verbose = true; }},
+  };
+}
+
+std::vector<Flag> json_flags() {
+  return {{.spelling = "--json",
+           .group = "General",
+           .default_value = "off",
+           .help = "prints JSON instead of a table",
+           .set = [](Arguments& a, const std::string&) { a.json = true; }}};
+}
+
+std::vector<Flag> help_flags() {
+  return {
+      {.spelling = "-h,--help",
+       .group = "General",
+       .help = "prints this page",
+       .set = [](Arguments&, const std::string&) { throw CLI::CallForHelp(); }},
+      {.spelling = "--version",
+       .group = "General",
+       .help = "prints the version",
+       .set =
+           [](Arguments&, const std::string&) {
+             throw CLI::CallForVersion("leafhull " + std::string(kVersion), 0);
+           }},
+  };
+}
+
+std::vector<Flag> all_of(std::initializer_list<std::vector<Flag>> groups) {
+  std::vector<Flag> flags;
+  for (const auto& group : groups) flags.insert(flags.end(), group.begin(), group.end());
+  return flags;
+}
+
+void add_flags(CLI::App& app, const std::vector<Flag>& flags, Arguments& arguments) {
+  app.set_help_flag();
+  for (const Flag& flag : flags) {
+    if (flag.value.empty()) {
+      app.add_flag_callback(flag.spelling, [&flag, &arguments] { flag.set(arguments, {}); });
+      continue;
+    }
+    app.add_option_function<std::vector<std::string>>(
+           flag.spelling,
+           [&flag, &arguments](const std::vector<std::string>& values) {
+             if (values.size() > 1 && !flag.repeatable) {
+               throw Error(ErrorCode::usage, flag.spelling + " is given more than once",
+                           "Give it once.");
+             }
+             for (const std::string& value : values) flag.set(arguments, value);
+           })
+        ->allow_extra_args(false);
+  }
+}
+
+}  // namespace leafhull::cli

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/help.h"
+
+#include <algorithm>
+#include <iostream>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "cli/values.h"
+
+namespace leafhull::cli {
+namespace {
+
+constexpr std::size_t kIndent = 28;
+constexpr std::size_t kWidth = 98;
+
+std::string spelled(const Flag& flag) {
+  std::string text = flag.spelling;
+  if (const std::size_t comma = text.find(','); comma != std::string::npos) {
+    text.insert(comma + 1, " ");
+  }
+  return flag.value.empty() ? text : text + " " + std::string(flag.value);
+}
+
+std::string padded(std::string text, std::size_t width) {
+  text.resize(std::max(text.size(), width), ' ');
+  return text;
+}
+
+/// `text` broken at spaces into lines of at most kWidth - kIndent.
+std::vector<std::string> wrapped(std::string_view text) {
+  constexpr std::size_t kRoom = kWidth - kIndent;
+  std::vector<std::string> lines;
+  while (text.size() > kRoom) {
+    const std::size_t space = text.rfind(' ', kRoom);
+    if (space == std::string_view::npos) break;
+    lines.emplace_back(text.substr(0, space));
+    text.remove_prefix(space + 1);
+  }
+  lines.emplace_back(text);
+  return lines;
+}
+
+/// A term with its lines of text beside it.
+std::string entry(std::string_view term, const std::vector<std::string>& lines) {
+  std::string page = "  " + std::string(term);
+  const bool beside = page.size() + 2 <= kIndent;
+  page = beside ? padded(page, kIndent) : page + "\n" + std::string(kIndent, ' ');
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    page += (i > 0 ? std::string(kIndent, ' ') : "") + lines[i] + "\n";
+  }
+  return page;
+}
+
+std::string entry(std::string_view term, std::string_view text) {
+  return entry(term, wrapped(text));
+}
+
+/// The meaning with unit, range and default; these on a line of their own where they do not fit.
+std::string help_line(const Flag& flag) {
+  const std::string by_default =
+      flag.default_value.empty() ? "" : "default " + std::string(flag.default_value);
+  const std::string_view facts[] = {flag.unit, flag.range, by_default};
+  const std::string details = joined(facts, "; ");
+  if (details.empty()) return entry(spelled(flag), flag.help);
+  const std::string whole = std::string(flag.help) + " (" + details + ")";
+  if (wrapped(whole).size() == 1) return entry(spelled(flag), whole);
+  std::vector<std::string> lines = wrapped(flag.help);
+  for (std::string& line : wrapped("(" + details + ")")) lines.push_back(std::move(line));
+  return entry(spelled(flag), lines);
+}
+
+std::string markdown_row(const Flag& flag) {
+  const auto cell = [](std::string_view text) { return " " + std::string(text) + " |"; };
+  return "|" + cell("`" + spelled(flag) + "`") + cell(flag.help) + cell(flag.unit) +
+         cell(flag.range) + cell(flag.default_value) + "\n";
+}
+
+std::string style_line(Style style) {
+  Options values;
+  values.style = style;
+  values = resolve(values);
+  std::string text = std::string(name(*values.method)) + ", R_max " + number(*values.radius_max);
+  if (values.threshold) text += ", T " + number(*values.threshold);
+  if (values.coverage) text += ", coverage " + number(*values.coverage);
+  if (values.method != Method::isotropic) text += ", flatness " + number(*values.flatness);
+  if (*values.min_component > 0) text += ", min-component " + number(*values.min_component);
+  return entry(name(style), text);
+}
+
+std::string styles_and_presets() {
+  std::string text = "\nStyles\n";
+  for (std::size_t i = 0; i < names(Style{}).size(); ++i) text += style_line(Style(i));
+  text += "\nPresets (voxels along the longest side)\n";
+  std::string presets;
+  for (std::size_t i = 0; i < names(Preset{}).size(); ++i) {
+    presets += (presets.empty() ? "" : ", ") + std::string(name(Preset(i))) + " " +
+               std::to_string(resolution_of(Preset(i)));
+  }
+  return text + "  " + presets + "\n";
+}
+
+void print_markdown(const Arguments&) { std::cout << markdown(extract_verb().flags); }
+
+}  // namespace
+
+std::string command_help(std::span<const Verb> verbs) {
+  std::string page =
+      "leafhull turns the leaves of a tree model into its abstract shape: the closed surface\n"
+      "a painter would block in before drawing a single leaf.\n"
+      "\nUsage\n  leafhull VERB [options]\n\nVerbs\n";
+  for (const Verb& verb : verbs) {
+    if (!verb.hidden) page += entry(verb.name, verb.summary);
+  }
+  page += "\nGeneral\n";
+  for (const Flag& flag : help_flags()) page += help_line(flag);
+  return page +
+         "\nFirst steps\n"
+         "  leafhull inspect tree.glb                 what is in the file, and what to type next\n"
+         "  leafhull extract tree.glb -o shape.glb    the shape, to open in Blender\n"
+         "  leafhull extract --help                   every option, with unit, range and default\n"
+         "\nExit codes\n"
+         "  0 done, 1 internal error, 2 usage, 3 input, 4 device, 5 output, 6 the shape is empty\n";
+}
+
+std::string verb_help(const Verb& verb) {
+  std::string page = std::string(verb.about) + "\n\nUsage\n  leafhull " + std::string(verb.name) +
+                     (verb.takes_tree ? " TREE" : "") + " [options]\n";
+  if (verb.takes_tree) page += "\n" + entry("TREE", "a .glb, .gltf or .obj file");
+  std::string_view group;
+  for (const Flag& flag : verb.flags) {
+    if (flag.group != group) page += "\n" + std::string(group = flag.group) + "\n";
+    page += help_line(flag);
+  }
+  if (verb.name == "extract") page += styles_and_presets();
+  return page + "\nExamples\n" + std::string(verb.examples);
+}
+
+std::string markdown(std::span<const Flag> flags) {
+  std::string page;
+  std::string_view group;
+  for (const Flag& flag : flags) {
+    if (flag.group != group) {
+      group = flag.group;
+      page += (page.empty() ? "" : "\n") + ("**" + std::string(group) + "**\n\n") +
+              "| Option | Meaning | Unit | Range | Default |\n|---|---|---|---|---|\n";
+    }
+    page += markdown_row(flag);
+  }
+  return page;
+}
+
+Verb help_options_verb() {
+  return {.name = "help-options",
+          .summary = "extract's options as Markdown",
+          .about = "Prints the options of extract as Markdown tables.",
+          .examples = "  leafhull help-options\n",
+          .hidden = true,
+          .flags = help_flags(),
+          .run = print_markdown};
+}
+
+}  // namespace leafhull::cli

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <iostream>
+#include <new>
+
+#include "cli/console.h"
+#include "cli/help.h"
+#include "cli/values.h"
+#include "cli/verb.h"
+#include "leafhull/error.h"
+
+namespace leafhull::cli {
+namespace {
+
+std::string with_guess(std::string_view word, std::span<const std::string_view> valid,
+                       const std::string& otherwise) {
+  const std::string_view near = nearest(word, valid);
+  return near.empty() ? otherwise : "Did you mean " + std::string(near) + "? " + otherwise;
+}
+
+[[noreturn]] void refuse_option(const std::string& word, const std::vector<Flag>& flags,
+                                const std::string& remedy) {
+  std::vector<std::string_view> spellings;
+  for (const Flag& flag : flags) {
+    spellings.push_back(std::string_view(flag.spelling).substr(flag.spelling.find("--")));
+  }
+  const std::string option = word.substr(0, word.find('='));
+  throw Error(ErrorCode::usage, "the option " + option + " is unknown",
+              with_guess(option, spellings, remedy));
+}
+
+bool is_option(const std::string& word) { return word.starts_with('-'); }
+
+/// Words that neither the verb nor its flags took.
+void refuse_extras(std::vector<std::string> extras, const Verb& verb) {
+  std::erase(extras, "--");
+  if (extras.empty()) return;
+  const std::string help = "See leafhull " + std::string(verb.name) + " --help.";
+  const auto option = std::find_if(extras.begin(), extras.end(), is_option);
+  if (option != extras.end()) refuse_option(*option, verb.flags, help);
+  throw Error(ErrorCode::usage, "'" + extras.front() + "' is one word too many",
+              verb.takes_tree ? "Give one TREE. " + help : help);
+}
+
+[[noreturn]] void refuse_verb(const std::vector<std::string>& words, std::span<const Verb> verbs) {
+  std::vector<std::string_view> valid;
+  for (const Verb& verb : verbs) {
+    if (!verb.hidden) valid.push_back(verb.name);
+  }
+  const std::string remedy = "Choose from: " + joined(valid, ", ") + ". See leafhull --help.";
+  if (words.empty()) throw Error(ErrorCode::usage, "no verb is given", remedy);
+  if (is_option(words.front())) refuse_option(words.front(), help_flags(), remedy);
+  throw Error(ErrorCode::usage, "the verb '" + words.front() + "' is unknown",
+              with_guess(words.front(), valid, remedy));
+}
+
+CLI::App* add_verb(CLI::App& app, const Verb& verb, Arguments& arguments) {
+  CLI::App* sub = app.add_subcommand(std::string(verb.name), std::string(verb.summary));
+  sub->allow_extras();
+  add_flags(*sub, verb.flags, arguments);
+  if (verb.takes_tree) sub->add_option("TREE", arguments.tree);
+  sub->formatter_fn([&verb](auto&&...) { return verb_help(verb); });
+  return sub;
+}
+
+void run(const std::vector<std::string>& command) {
+  const std::array verbs = {extract_verb(), inspect_verb(), devices_verb(), help_options_verb()};
+  const std::vector<Flag> flags = help_flags();
+  Arguments arguments;
+  arguments.command = command;
+  CLI::App app;
+  app.allow_extras();
+  add_flags(app, flags, arguments);
+  app.formatter_fn([&verbs](auto&&...) { return command_help(verbs); });
+  for (const Verb& verb : verbs) add_verb(app, verb, arguments);
+
+  try {
+    app.parse(std::vector<std::string>(command.rbegin(), command.rend() - 1));
+  } catch (const CLI::CallForHelp&) {
+    std::cout << app.help();
+    return;
+  } catch (const CLI::CallForVersion& version) {
+    std::cout << version.what() << '\n';
+    return;
+  } catch (const CLI::ArgumentMismatch& error) {
+    const std::string_view what = error.what();
+    throw Error(ErrorCode::usage, std::string(what.substr(0, what.find(':'))) + " needs a value",
+                "See leafhull --help.");
+  } catch (const CLI::ParseError& error) {
+    throw Error(ErrorCode::usage, error.what(), "See leafhull --help.");
+  }
+
+  const auto is_chosen = [&](const Verb& verb) {
+    return app.got_subcommand(std::string(verb.name));
+  };
+  const auto verb = std::find_if(verbs.begin(), verbs.end(), is_chosen);
+  if (verb == verbs.end()) refuse_verb(app.remaining(), verbs);
+  if (!app.remaining().empty()) {
+    throw Error(ErrorCode::usage, app.remaining().front() + " stands before the verb",
+                "Options follow the verb: leafhull " + std::string(verb->name) + " [options].");
+  }
+  refuse_extras(app.get_subcommand(std::string(verb->name))->remaining(), *verb);
+  if (verb->takes_tree && arguments.tree.empty()) {
+    throw Error(
+        ErrorCode::usage, "no TREE is given",
+        "Give a .glb, .gltf or .obj file: leafhull " + std::string(verb->name) + " tree.glb.");
+  }
+  verb->run(arguments);
+}
+
+int exit_code(const std::vector<std::string>& command) {
+  try {
+    run(command);
+    if (!std::cout.flush()) {
+      throw Error(ErrorCode::output, "standard output could not be written",
+                  "Look at the disk or the pipe it goes to.");
+    }
+    return 0;
+  } catch (const Error& error) {
+    std::cout.flush();
+    print_error(error.what(), error.remedy());
+    return static_cast<int>(error.code());
+  } catch (const std::bad_alloc&) {
+    print_error("out of memory", "Try a lower --resolution.");
+  } catch (const std::exception& error) {
+    print_error("internal error: " + std::string(error.what()),
+                "Please report it with the command and the tree.");
+  }
+  return static_cast<int>(ErrorCode::internal);
+}
+
+}  // namespace
+}  // namespace leafhull::cli
+
+int main(int argc, char** argv) { return leafhull::cli::exit_code({argv, argv + argc}); }

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "cli/flags.h"
+
+namespace leafhull::cli {
+
+/// One of the command's verbs. `run` prints its results and throws Error where it fails.
+struct Verb {
+  std::string_view name, summary, about, examples;
+  bool takes_tree = false;
+  bool hidden = false;
+  std::vector<Flag> flags;
+  void (*run)(const Arguments&) = nullptr;
+};
+
+Verb extract_verb();
+Verb inspect_verb();
+Verb devices_verb();
+Verb help_options_verb();
+
+}  // namespace leafhull::cli

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "density/band.h"
+
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+
+#include "density/batches.h"
+
+namespace leafhull {
+
+std::vector<Block> find_band(const KernelHash& hash, const BandOptions& options,
+                             const BandVisitor& visit) {
+  const std::vector<Coord> roots = hash.root_blocks(options.margin);
+  std::vector<Block> inside;
+
+  struct Found {
+    BrickList bricks;
+    std::vector<Block> inside;
+  };
+  const auto search = [&](Descent& descent, Coord root, Found& found) {
+    const auto enter = [](const Block&) { return true; };
+    const auto decide = [&](const Block& block, std::span<const std::uint32_t> kernels,
+                            const Descent::Bounds& bounds) {
+      if (kernels.empty()) return false;
+      if (options.threshold && !options.dense) {
+        if (bounds.high < *options.threshold) return false;
+        if (bounds.low >= *options.threshold) {
+          found.inside.push_back(block);
+          return false;
+        }
+      }
+      if (block.edge == kBrickEdge) found.bricks.add(block.origin, kernels);
+      return true;
+    };
+    descent.from(root, enter, decide);
+  };
+  const auto flush = [&](Found& found, double done) {
+    if (found.bricks.size() > 0) visit(found.bricks, done);
+    inside.insert(inside.end(), found.inside.begin(), found.inside.end());
+  };
+  const auto join = [](Found& all, const Found& found) {
+    all.bricks.append(found.bricks);
+    all.inside.insert(all.inside.end(), found.inside.begin(), found.inside.end());
+  };
+  const auto full = [](const Found& found) { return is_full(found.bricks); };
+  in_batches<Found>(roots, [&] { return Descent(hash, options.falloff, options.margin); }, search,
+                    join, full, flush);
+  return inside;
+}
+
+}  // namespace leafhull

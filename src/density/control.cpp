@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "density/control.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace leafhull {
+namespace {
+
+/// A radius is never below this share of R_max. SPEC: 1.
+constexpr double kSmallestRadius = 1e-3;
+
+Kernel kernel_at(const LeafVertex& leaf, Vec3d radii) {
+  return {leaf.position,
+          leaf.normal,
+          leaf.major,
+          static_cast<float>(radii.x),
+          static_cast<float>(radii.y),
+          static_cast<float>(radii.z)};
+}
+
+}  // namespace
+
+DensityStatistics density_statistics(std::span<const float> isotropic_density,
+                                     const Options& resolved) {
+  const auto count = static_cast<double>(isotropic_density.size());
+  DensityStatistics s;
+  for (const float n : isotropic_density) s.mean += n;
+  s.mean /= count;
+  for (const float n : isotropic_density) s.variance += (n - s.mean) * (n - s.mean);
+  s.variance /= count;
+  const double spread = resolved.spread == Spread::stddev ? std::sqrt(s.variance) : s.variance;
+  s.p1 = s.mean + resolved.band_low * spread;
+  s.p2 = s.mean + resolved.band_high * spread;
+  return s;
+}
+
+std::vector<Kernel> isotropic_kernels(std::span<const LeafVertex> leaves, double radius_max) {
+  std::vector<Kernel> kernels;
+  kernels.reserve(leaves.size());
+  for (const LeafVertex& leaf : leaves) {
+    kernels.push_back(kernel_at(leaf, {radius_max, radius_max, radius_max}));
+  }
+  return kernels;
+}
+
+double anisotropy(double n, const DensityStatistics& statistics) {
+  const auto [mean, variance, p1, p2] = statistics;
+  if (n <= p1) return 0;
+  if (n >= p2) return 1;
+  return (n - p1) / (p2 - p1);
+}
+
+std::vector<Kernel> controlled_kernels(std::span<const LeafVertex> leaves,
+                                       std::span<const float> isotropic_density,
+                                       const DensityStatistics& statistics, double radius_max,
+                                       const Options& resolved) {
+  if (resolved.method == Method::isotropic) return isotropic_kernels(leaves, radius_max);
+  const double flatness = *resolved.flatness;
+  std::vector<Kernel> kernels;
+  kernels.reserve(leaves.size());
+  for (std::size_t j = 0; j < leaves.size(); ++j) {
+    const double share = resolved.method == Method::uncontrolled
+                             ? 1
+                             : anisotropy(isotropic_density[j], statistics);
+    const auto radius = [&](double of_leaf) {
+      const double r = radius_max + (of_leaf - radius_max) * share;
+      return std::max(r, kSmallestRadius * radius_max);
+    };
+    const double minor = leaves[j].radius_minor;
+    kernels.push_back(kernel_at(
+        leaves[j], {radius(leaves[j].radius_major), radius(minor), radius(flatness * minor)}));
+  }
+  return kernels;
+}
+
+double threshold_for_coverage(std::span<const float> density, double coverage) {
+  std::vector<float> ranked(density.begin(), density.end());
+  const std::size_t count = ranked.size();
+  const auto below = std::min(
+      count - 1, static_cast<std::size_t>(std::llround((1 - coverage) * static_cast<double>(count))));
+  const auto at = ranked.begin() + static_cast<std::ptrdiff_t>(below);
+  std::nth_element(ranked.begin(), at, ranked.end());
+  if (below == 0) return *at;
+  const float lower = *std::max_element(ranked.begin(), at);
+  return 0.5 * (static_cast<double>(lower) + static_cast<double>(*at));
+}
+
+}  // namespace leafhull

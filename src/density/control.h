@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "leafhull/leaves.h"
+#include "leafhull/options.h"
+#include "leafhull/shape.h"
+
+namespace leafhull {
+
+/// Mean and variance of N_iso over the leaf vertices and the densities p1 and p2 between which
+/// kernels go from isotropic to the shape of their leaf. Source: Eqs. (9), (10); the paper prints the
+/// variance for the spread (SPEC: 3, open point).
+DensityStatistics density_statistics(std::span<const float> isotropic_density,
+                                     const Options& resolved);
+
+/// The kernels that measure N_iso: radius `radius_max` (model units) in every direction.
+std::vector<Kernel> isotropic_kernels(std::span<const LeafVertex> leaves, double radius_max);
+
+/// The kernels of the chosen method: isotropic, the leaf's own radii, or between the two by the
+/// density at each leaf vertex. `isotropic_density` has one value per leaf vertex; `radius_max` is
+/// in model units. Source: Eqs. (7), (8).
+std::vector<Kernel> controlled_kernels(std::span<const LeafVertex> leaves,
+                                       std::span<const float> isotropic_density,
+                                       const DensityStatistics& statistics, double radius_max,
+                                       const Options& resolved);
+
+/// The share of anisotropy at density n, 0 at p1 and below to 1 at p2 and above. Source: Eq. (8).
+double anisotropy(double n, const DensityStatistics& statistics);
+
+/// T such that the fraction `coverage` of the densities is at least T: halfway between the two
+/// neighbours in rank, so that rounding does not move a leaf vertex across.
+double threshold_for_coverage(std::span<const float> density, double coverage);
+
+}  // namespace leafhull

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cmath>
+#include <compare>
+#include <cstdint>
+
+#include "leafhull/vec.h"
+
+namespace leafhull {
+
+/// Lattice coordinates, relative to Lattice::anchor.
+struct Coord {
+  std::int32_t x = 0, y = 0, z = 0;
+  friend auto operator<=>(const Coord&, const Coord&) = default;
+  friend Coord operator+(Coord a, Coord b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+};
+
+/// Samples per side of a brick, the unit of evaluation and a leaf node of the sparse grid.
+inline constexpr int kBrickEdge = 8;
+inline constexpr int kBrickSamples = kBrickEdge * kBrickEdge * kBrickEdge;
+/// Samples per side of a root block, where the search for the surface starts.
+inline constexpr int kRootEdge = 32;
+
+/// A cube of samples (and of the cells above them): [origin, origin + edge) along each axis.
+struct Block {
+  Coord origin;
+  int edge = kBrickEdge;
+};
+
+/// The global lattice of integer multiples of the voxel size. Stages compute relative to an anchor,
+/// a lattice point near the tree, so that a far tree loses no digits. SPEC: 5.
+struct Lattice {
+  double voxel_size = 1;            ///< h, model units, > 0
+  Vec3<std::int64_t> anchor{};      ///< a multiple of kRootEdge along each axis
+
+  /// The lattice of voxel size `voxel_size` anchored near `p`.
+  static Lattice near(Vec3d p, double voxel_size) {
+    const auto align = [&](double v) {
+      return static_cast<std::int64_t>(std::floor(v / voxel_size / kRootEdge)) * kRootEdge;
+    };
+    return {voxel_size, {align(p.x), align(p.y), align(p.z)}};
+  }
+
+  /// A point in voxels from the anchor.
+  Vec3d local(Vec3d p) const {
+    return {p.x / voxel_size - static_cast<double>(anchor.x),
+            p.y / voxel_size - static_cast<double>(anchor.y),
+            p.z / voxel_size - static_cast<double>(anchor.z)};
+  }
+
+  /// The world position of a point given in voxels from the anchor.
+  Vec3d world(Vec3d local) const {
+    return {(static_cast<double>(anchor.x) + local.x) * voxel_size,
+            (static_cast<double>(anchor.y) + local.y) * voxel_size,
+            (static_cast<double>(anchor.z) + local.z) * voxel_size};
+  }
+};
+
+/// The cell that holds a local point.
+inline Coord cell_of(Vec3d local) {
+  return {static_cast<std::int32_t>(std::floor(local.x)),
+          static_cast<std::int32_t>(std::floor(local.y)),
+          static_cast<std::int32_t>(std::floor(local.z))};
+}
+
+/// The origin of the block of edge `edge` (a power of two) that holds a cell.
+inline Coord block_origin(Coord cell, int edge) {
+  return {cell.x & -edge, cell.y & -edge, cell.z & -edge};
+}
+
+inline Vec3d to_vec3d(Coord c) {
+  return {static_cast<double>(c.x), static_cast<double>(c.y), static_cast<double>(c.z)};
+}
+
+}  // namespace leafhull

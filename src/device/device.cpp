@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "leafhull/device.h"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cstdio>
+#include <cstdlib>
+#include <optional>
+
+#include "device/engine.h"
+#include "leafhull/error.h"
+
+namespace leafhull {
+namespace {
+
+constexpr const char* kInstallPocl =
+    "Install the OpenCL runtime for CPUs, PoCL (Debian: apt-get install pocl-opencl-icd), or the "
+    "driver of your GPU.";
+
+struct Found {
+  DeviceInfo info;
+  cl::Device device;
+};
+
+std::string trimmed(std::string text) {
+  while (!text.empty() && (text.back() == '\0' || text.back() == ' ')) text.pop_back();
+  return text;
+}
+
+std::string lower(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
+
+/// PoCL reads how many threads it may start from the environment, once, at the first OpenCL call.
+void bound_pocl_threads(int threads) {
+  if (threads <= 0) return;
+  const std::string count = std::to_string(threads);
+  setenv("POCL_MAX_PTHREAD_COUNT", count.c_str(), 1);  // before PoCL 4
+  setenv("POCL_CPU_MAX_CU_COUNT", count.c_str(), 1);
+}
+
+/// Major and minor version of "OpenCL 1.2 ...".
+bool at_least_1_2(const std::string& version) {
+  int major = 0, minor = 0;
+  return std::sscanf(version.c_str(), "OpenCL %d.%d", &major, &minor) == 2 &&
+         (major > 1 || (major == 1 && minor >= 2));
+}
+
+std::string reason_unusable(const cl::Device& device, const DeviceInfo& info) {
+  if (!device.getInfo<CL_DEVICE_AVAILABLE>()) return "not available";
+  if (!device.getInfo<CL_DEVICE_COMPILER_AVAILABLE>()) return "has no compiler";
+  if (!at_least_1_2(info.version)) return "older than OpenCL 1.2";
+  if (!device.getInfo<CL_DEVICE_ENDIAN_LITTLE>()) return "big-endian";
+  return {};
+}
+
+Found describe(const cl::Platform& platform, const cl::Device& device) {
+  DeviceInfo info;
+  info.name = trimmed(device.getInfo<CL_DEVICE_NAME>());
+  info.platform = trimmed(platform.getInfo<CL_PLATFORM_NAME>());
+  info.version = trimmed(device.getInfo<CL_DEVICE_VERSION>());
+  info.driver = trimmed(device.getInfo<CL_DRIVER_VERSION>());
+  const cl_device_type type = device.getInfo<CL_DEVICE_TYPE>();
+  info.type = type & CL_DEVICE_TYPE_CPU ? "CPU" : type & CL_DEVICE_TYPE_GPU ? "GPU" : "other";
+  info.variant = info.type == "CPU" ? "vector" : "work-item";
+  info.compute_units = static_cast<int>(device.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>());
+  info.memory_bytes = device.getInfo<CL_DEVICE_GLOBAL_MEM_SIZE>();
+  info.reason = reason_unusable(device, info);
+  info.usable = info.reason.empty();
+  return {info, device};
+}
+
+std::vector<Found> find_devices() {
+  std::vector<Found> found;
+  std::vector<cl::Platform> platforms;
+  try {
+    cl::Platform::get(&platforms);
+  } catch (const cl::Error&) {
+    return found;  // the loader's way to say that there is none
+  }
+  for (const cl::Platform& platform : platforms) {
+    std::vector<cl::Device> devices;
+    try {
+      platform.getDevices(CL_DEVICE_TYPE_ALL, &devices);
+    } catch (const cl::Error&) {
+      continue;  // a platform without devices
+    }
+    for (const cl::Device& device : devices) found.push_back(describe(platform, device));
+  }
+  return found;
+}
+
+/// The device that `choice` names, by index or part of a name; none where nothing matches.
+std::optional<std::size_t> named(const std::vector<Found>& devices, const std::string& choice) {
+  std::size_t index = 0;
+  const char* end = choice.data() + choice.size();
+  if (const auto [p, error] = std::from_chars(choice.data(), end, index);
+      error == std::errc{} && p == end) {
+    return index < devices.size() ? std::optional(index) : std::nullopt;
+  }
+  for (std::size_t i = 0; i < devices.size(); ++i) {
+    const DeviceInfo& info = devices[i].info;
+    if (lower(info.name + " " + info.platform).find(lower(choice)) != std::string::npos) return i;
+  }
+  return std::nullopt;
+}
+
+/// A usable GPU, else a usable CPU, else anything usable.
+std::optional<std::size_t> by_default(const std::vector<Found>& devices) {
+  for (const char* type : {"GPU", "CPU", "other"}) {
+    for (std::size_t i = 0; i < devices.size(); ++i) {
+      if (devices[i].info.usable && devices[i].info.type == type) return i;
+    }
+  }
+  return std::nullopt;
+}
+
+/// Marks the chosen device, says why for each, and applies a variant that was asked for.
+std::optional<std::size_t> choose(std::vector<Found>& devices, const DeviceOptions& options) {
+  const auto chosen = options.choice.empty() ? by_default(devices) : named(devices, options.choice);
+  for (std::size_t i = 0; i < devices.size(); ++i) {
+    DeviceInfo& info = devices[i].info;
+    if (!options.variant.empty()) info.variant = options.variant;
+    if (i == chosen) {
+      info.chosen = info.usable;
+      if (!info.usable) continue;
+      info.reason = !options.choice.empty() ? "matches --device " + options.choice
+                    : info.type == "GPU"    ? "the first usable GPU"
+                    : info.type == "CPU"    ? "no usable GPU; the first CPU"
+                                            : "neither a GPU nor a CPU is usable";
+    } else if (info.usable) {
+      info.reason = "usable, not chosen";
+    }
+  }
+  return chosen;
+}
+
+std::string listing(const std::vector<Found>& devices) {
+  std::string text;
+  for (std::size_t i = 0; i < devices.size(); ++i) {
+    text += (i ? ", " : "") + std::to_string(i) + ": " + devices[i].info.name;
+  }
+  return text;
+}
+
+}  // namespace
+
+std::vector<DeviceInfo> list_devices(const DeviceOptions& options) {
+  bound_pocl_threads(options.threads);
+  std::vector<Found> found = find_devices();
+  choose(found, options);
+  std::vector<DeviceInfo> infos;
+  for (const Found& one : found) infos.push_back(one.info);
+  return infos;
+}
+
+Device::Device(const DeviceOptions& options) : engine_(std::make_unique<Engine>()) {
+  if (!options.variant.empty() && options.variant != "vector" && options.variant != "work-item") {
+    throw Error(ErrorCode::usage, "there is no kernel variant '" + options.variant + "'",
+                "Use vector or work-item.");
+  }
+  bound_pocl_threads(options.threads);
+  std::vector<Found> devices = find_devices();
+  if (devices.empty()) throw Error(ErrorCode::device, "no OpenCL device was found", kInstallPocl);
+  const auto chosen = choose(devices, options);
+  if (!chosen) {
+    if (options.choice.empty()) {
+      throw Error(ErrorCode::device,
+                  "none of the OpenCL devices is usable (" + listing(devices) + ")", kInstallPocl);
+    }
+    throw Error(ErrorCode::device, "no OpenCL device matches '" + options.choice + "'",
+                "There are: " + listing(devices) + ".");
+  }
+  const Found& device = devices[*chosen];
+  if (!device.info.usable) {
+    throw Error(ErrorCode::device,
+                "the OpenCL device '" + device.info.name + "' is unusable: " + device.info.reason,
+                "Leave --device out to use another.");
+  }
+  engine_->info = device.info;
+  engine_->threads = options.threads;
+  try {
+    engine_->device = device.device;
+    engine_->context = cl::Context(device.device);
+    engine_->queue = cl::CommandQueue(engine_->context, device.device);
+  } catch (const cl::Error& error) {
+    throw Error(ErrorCode::device,
+                "the OpenCL device '" + device.info.name + "' could not be opened: " +
+                    error.what() + " failed with " + std::to_string(error.err()),
+                "Choose another with --device; `leafhull devices` lists them.");
+  }
+}
+
+Device::~Device() = default;
+Device::Device(Device&&) noexcept = default;
+Device& Device::operator=(Device&&) noexcept = default;
+
+const DeviceInfo& Device::info() const { return engine_->info; }
+
+int Device::threads() const { return engine_->threads; }
+
+cl::Kernel Device::Engine::kernel(std::string_view source, const std::string& options,
+                                  const char* name) {
+  auto [entry, added] = programs.try_emplace({source, options});
+  cl::Program& program = entry->second;
+  try {
+    if (added) {
+      program = cl::Program(context, std::string(source));
+      program.build(device, ("-cl-std=CL1.2 " + options).c_str());
+    }
+    return cl::Kernel(program, name);
+  } catch (const cl::Error& error) {
+    std::string log;
+    if (program()) program.getBuildInfo(device, CL_PROGRAM_BUILD_LOG, &log);
+    programs.erase(entry);
+    throw Error(ErrorCode::device,
+                "the OpenCL kernel " + std::string(name) + " does not build on '" + info.name +
+                    "' (" + error.what() + ", " + std::to_string(error.err()) + "):\n" +
+                    trimmed(log),
+                "Choose another device with --device, and report this log.");
+  }
+}
+
+}  // namespace leafhull

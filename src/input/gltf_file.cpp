@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "input/gltf_file.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <system_error>
+
+#include "input/gltf_document.h"
+
+namespace leafhull {
+namespace {
+
+using nlohmann::json;
+
+constexpr std::uint32_t kJsonChunk = 0x4E4F534A;
+constexpr std::uint32_t kBinaryChunk = 0x004E4942;
+
+struct Chunks {
+  std::string_view json;
+  ByteSpan binary;
+};
+
+std::uint32_t little_endian(ByteSpan bytes, std::size_t at) {
+  return bytes[at] | bytes[at + 1] << 8 | bytes[at + 2] << 16 | std::uint32_t(bytes[at + 3]) << 24;
+}
+
+// glTF 2.0, section 4 "GLB File Format Specification".
+Chunks split_glb(ByteSpan bytes, const std::string& file) {
+  constexpr std::string_view kCopyAgain =
+      "The file is cut off or damaged: copy or export it again.";
+  if (bytes.size() < 20) input_error(file, "GLB header", "is cut off", kCopyAgain);
+  const std::uint32_t version = little_endian(bytes, 4);
+  if (version != 2)
+    input_error(file, "GLB header", "version " + std::to_string(version) + " is not read, only 2",
+                "Convert the file to glTF 2.0.");
+  const std::uint32_t length = little_endian(bytes, 8);
+  if (length != bytes.size())
+    input_error(
+        file, "GLB header",
+        "says " + std::to_string(length) + " bytes, the file has " + std::to_string(bytes.size()),
+        kCopyAgain);
+
+  Chunks chunks;
+  for (std::size_t at = 12, index = 0; at < bytes.size(); ++index) {
+    const std::string place = "GLB chunk " + std::to_string(index);
+    if (bytes.size() - at < 8) input_error(file, place, "is cut off", kCopyAgain);
+    const std::uint32_t size = little_endian(bytes, at);
+    const std::uint32_t type = little_endian(bytes, at + 4);
+    at += 8;
+    if (size > bytes.size() - at)
+      input_error(file, place,
+                  "says " + std::to_string(size) + " bytes, " + std::to_string(bytes.size() - at) +
+                      " are left",
+                  kCopyAgain);
+    if (index == 0 && type != kJsonChunk) input_error(file, place, "is not JSON", kCopyAgain);
+    if (index == 0) chunks.json = text_of(bytes.subspan(at, size));
+    if (index == 1 && type == kBinaryChunk) chunks.binary = bytes.subspan(at, size);
+    at += size;
+  }
+  // Some exporters pad with zeros where the specification asks for spaces.
+  while (chunks.json.ends_with('\0')) chunks.json.remove_suffix(1);
+  return chunks;
+}
+
+bool is_meshopt_fallback(const json& buffer) {
+  const json::json_pointer flag("/extensions/EXT_meshopt_compression/fallback");
+  return buffer.contains(flag) && buffer[flag] == true;
+}
+
+void load_buffers(GltfFile& file, const json& buffers, ByteSpan binary) {
+  file.owned_buffers.reserve(buffers.size());
+  for (const json& buffer : buffers) {
+    const std::string place = place_of("buffers", file.buffers.size());
+    if (!buffer.contains("byteLength")) file.fail(place, "has no byteLength");
+    const auto length = buffer["byteLength"].get<std::size_t>();
+    ByteSpan bytes;
+    if (buffer.contains("uri") && buffer["uri"].is_string()) {
+      bytes = file.owned_buffers.emplace_back(load_uri(file, buffer["uri"], place));
+    } else if (is_meshopt_fallback(buffer)) {
+      file.buffers.emplace_back();
+      continue;
+    } else if (file.buffers.empty()) {
+      bytes = binary;
+    } else {
+      file.fail(place, "has neither a uri nor a binary chunk");
+    }
+    if (bytes.size() < length)
+      file.fail(place, "needs " + std::to_string(length) + " bytes and has " +
+                           std::to_string(bytes.size()));
+    file.buffers.push_back(bytes.first(length));
+  }
+}
+
+void list_images(tinygltf::Model& model, const json& images) {
+  for (const json& entry : images) {
+    tinygltf::Image& image = model.images.emplace_back();
+    image.bufferView = entry.value("bufferView", -1);
+    if (entry.contains("uri") && entry["uri"].is_string()) image.uri = entry["uri"];
+    if (entry.contains("name") && entry["name"].is_string()) image.name = entry["name"];
+  }
+}
+
+// tinygltf would load every buffer and image, refuse the fallback buffers of compressed files and
+// read images beyond the end of their buffer: it gets the rest.
+void parse_model(GltfFile& file, json document) {
+  document.erase("buffers");
+  document.erase("images");
+  const std::string text = document.dump();
+  std::string error, warning;
+  const bool good = tinygltf::TinyGLTF().LoadASCIIFromString(
+      &file.model, &error, &warning, text.data(), static_cast<unsigned>(text.size()), "");
+  if (!good || !error.empty()) file.fail("", printable(error, 300));
+}
+
+}  // namespace
+
+GltfFile open_gltf(ByteSpan bytes, const std::string& name,
+                   const std::optional<std::filesystem::path>& folder) {
+  const Chunks chunks =
+      text_of(bytes).starts_with("glTF") ? split_glb(bytes, name) : Chunks{text_of(bytes), {}};
+  json document = parse_document(chunks.json, name);
+  GltfFile file;
+  file.name = name;
+  file.folder = folder;
+  if (document.contains("buffers")) load_buffers(file, document["buffers"], chunks.binary);
+  const json images = document.contains("images") ? std::move(document["images"]) : json::array();
+  parse_model(file, std::move(document));
+  list_images(file.model, images);
+  return file;
+}
+
+Bytes load_uri(const GltfFile& file, const std::string& uri, const std::string& place) {
+  if (uri.starts_with("data:")) {
+    Bytes bytes;
+    std::string mime_type;
+    if (!tinygltf::DecodeDataURI(&bytes, mime_type, uri, 0, false))
+      file.fail(place, "the data URI " + in_quotes(uri.substr(0, 40)) + " cannot be decoded");
+    return bytes;
+  }
+  if (!file.folder || uri.find("://") != std::string::npos)
+    file.fail(place, in_quotes(uri) + " is outside the file and not looked for",
+              "Put everything into one .glb file.");
+  const std::filesystem::path path = *file.folder / percent_decoded(uri);
+  try {
+    return read_file(path);
+  } catch (const std::system_error& error) {
+    file.fail(place, in_quotes(path.string()) + " cannot be read: " + error.code().message(),
+              "Put the file there, or export the tree as one .glb file.");
+  }
+}
+
+}  // namespace leafhull

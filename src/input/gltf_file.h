@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <tiny_gltf.h>
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "input/file_bytes.h"
+#include "input/input_error.h"
+
+namespace leafhull {
+
+/// An opened glTF file: its document as tinygltf's types, and its bytes. The document is well typed
+/// and its whole numbers fit an int; where they point to is checked by those who follow them.
+struct GltfFile {
+  std::string name;                             ///< as messages call it
+  std::optional<std::filesystem::path> folder;  ///< of external files; empty: none are read
+  tinygltf::Model model;                        ///< its buffers and images hold no data
+  std::vector<ByteSpan> buffers;     ///< as many as the document has; empty for a meshopt fallback
+  std::vector<Bytes> owned_buffers;  ///< what `buffers` refers to outside the file itself
+  std::map<int, Bytes> decompressed_views;  ///< of EXT_meshopt_compression, as they are asked for
+
+  [[noreturn]] void fail(std::string_view place, std::string_view what,
+                         std::string_view remedy = kExportAgain) const {
+    input_error(name, place, what, remedy);
+  }
+};
+
+/// Opens the bytes of a .glb or .gltf file; they must outlive the result.
+/// @throws Error input.
+GltfFile open_gltf(ByteSpan bytes, const std::string& name,
+                   const std::optional<std::filesystem::path>& folder);
+
+/// The bytes that a URI of the document stands for.
+/// @throws Error input at `place`.
+Bytes load_uri(const GltfFile& file, const std::string& uri, const std::string& place);
+
+/// "accessors[3]"
+inline std::string place_of(std::string_view list, std::size_t index) {
+  return std::string(list) + '[' + std::to_string(index) + ']';
+}
+
+/// An extension of an object, or null.
+inline const tinygltf::Value* find_extension(const tinygltf::ExtensionMap& extensions,
+                                             const std::string& name) {
+  const auto found = extensions.find(name);
+  return found == extensions.end() ? nullptr : &found->second;
+}
+
+/// A whole number in an extension.
+inline int integer(const tinygltf::Value& object, const std::string& key, int missing) {
+  return object.Has(key) ? object.Get(key).GetNumberAsInt() : missing;
+}
+
+}  // namespace leafhull

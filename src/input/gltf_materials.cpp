@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "input/gltf_materials.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "input/gltf_accessor.h"
+#include "input/images.h"
+#include "leafhull/error.h"
+
+namespace leafhull {
+namespace {
+
+double number(const tinygltf::Value& list, int index, double missing) {
+  const tinygltf::Value& value = list.Get(index);
+  return value.IsNumber() ? value.GetNumberAsDouble() : missing;
+}
+
+Vec2d vec2(const tinygltf::Value& object, const std::string& key, Vec2d missing) {
+  const tinygltf::Value& list = object.Get(key);
+  if (!list.IsArray()) return missing;
+  return {number(list, 0, missing.x), number(list, 1, missing.y)};
+}
+
+TextureMapping mapping_of(int set, const tinygltf::Value* transform) {
+  TextureMapping mapping{.set = set};
+  if (!transform) return mapping;
+  mapping.set = integer(*transform, "texCoord", set);
+  mapping.offset = vec2(*transform, "offset", {0, 0});
+  mapping.scale = vec2(*transform, "scale", {1, 1});
+  const tinygltf::Value& rotation = transform->Get("rotation");
+  if (rotation.IsNumber()) mapping.rotation = rotation.GetNumberAsDouble();
+  return mapping;
+}
+
+AlphaMode alpha_mode(const std::string& mode) {
+  if (mode == "MASK") return AlphaMode::mask;
+  return mode == "BLEND" ? AlphaMode::blend : AlphaMode::opaque;
+}
+
+Wrap wrap(int mode) {
+  if (mode == TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE) return Wrap::clamp;
+  return mode == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT ? Wrap::mirror : Wrap::repeat;
+}
+
+// A texture may name one image that every reader knows, or only one that few do.
+int source_of(const tinygltf::Texture& texture) {
+  if (texture.source >= 0) return texture.source;
+  for (const char* name : {"EXT_texture_webp", "KHR_texture_basisu"})
+    if (const auto* extension = find_extension(texture.extensions, name))
+      return integer(*extension, "source", -1);
+  return -1;
+}
+
+}  // namespace
+
+void TextureMapping::apply(std::vector<Vec2f>& uvs) const {
+  if (is_identity()) return;
+  const double c = std::cos(rotation), s = std::sin(rotation);
+  for (Vec2f& uv : uvs) {
+    const double u = scale.x * uv.x, v = scale.y * uv.y;
+    uv = {float(offset.x + c * u + s * v), float(offset.y - s * u + c * v)};
+  }
+}
+
+void MaterialReader::read_all() {
+  for (const tinygltf::Material& from : file_.model.materials) {
+    Material& to = tree_.materials.emplace_back();
+    to.name = from.name;
+    to.alpha_mode = alpha_mode(from.alphaMode);
+    to.alpha_cutoff = from.alphaCutoff;
+    base_colors_.push_back(read_base_color(from, to));
+  }
+}
+
+MaterialReader::BaseColor MaterialReader::read_base_color(const tinygltf::Material& from,
+                                                          Material& to) const {
+  const tinygltf::PbrMetallicRoughness& pbr = from.pbrMetallicRoughness;
+  const auto* glossy = find_extension(from.extensions, "KHR_materials_pbrSpecularGlossiness");
+  const bool has_diffuse =
+      glossy && (glossy->Has("diffuseTexture") || glossy->Has("diffuseFactor"));
+  if (!has_diffuse || pbr.baseColorTexture.index >= 0) {
+    std::ranges::copy(pbr.baseColorFactor, to.base_color.begin());
+    return {pbr.baseColorTexture.index,
+            mapping_of(pbr.baseColorTexture.texCoord,
+                       find_extension(pbr.baseColorTexture.extensions, "KHR_texture_transform"))};
+  }
+  const tinygltf::Value& factor = glossy->Get("diffuseFactor");
+  if (factor.IsArray())
+    for (int i = 0; i < 4; ++i) to.base_color[std::size_t(i)] = float(number(factor, i, 1));
+  const tinygltf::Value& texture = glossy->Get("diffuseTexture");
+  if (!texture.IsObject()) return {};
+  const tinygltf::Value& extensions = texture.Get("extensions");
+  const bool transformed = extensions.Has("KHR_texture_transform");
+  return {integer(texture, "index", -1),
+          mapping_of(integer(texture, "texCoord", 0),
+                     transformed ? &extensions.Get("KHR_texture_transform") : nullptr)};
+}
+
+TextureMapping MaterialReader::use(int index, const std::string& user) {
+  if (index < 0) return {};
+  if (std::size_t(index) >= tree_.materials.size())
+    file_.fail(user, "there is no " + place_of("materials", std::size_t(index)));
+  Material& material = tree_.materials[std::size_t(index)];
+  const BaseColor& base_color = base_colors_[std::size_t(index)];
+  if (base_color.texture >= 0 && material.base_color_image < 0)
+    material.base_color_image =
+        image_of(base_color.texture, material, place_of("materials", std::size_t(index)));
+  return base_color.mapping;
+}
+
+int MaterialReader::image_of(int index, Material& material, const std::string& place) {
+  const tinygltf::Model& model = file_.model;
+  if (std::size_t(index) >= model.textures.size())
+    file_.fail(place, "there is no " + place_of("textures", std::size_t(index)));
+  const tinygltf::Texture& texture = model.textures[std::size_t(index)];
+  if (texture.sampler >= 0 && std::size_t(texture.sampler) < model.samplers.size()) {
+    const tinygltf::Sampler& sampler = model.samplers[std::size_t(texture.sampler)];
+    material.wrap_u = wrap(sampler.wrapS);
+    material.wrap_v = wrap(sampler.wrapT);
+  }
+  return read_image(source_of(texture));
+}
+
+int MaterialReader::read_image(int index) {
+  const auto [entry, is_new] = images_.emplace(index, int(tree_.images.size()));
+  if (!is_new) return entry->second;
+  const std::string place = place_of("images", std::size_t(index));
+  Image image;
+  std::string reason;
+  if (index < 0 || std::size_t(index) >= file_.model.images.size()) {
+    reason = "there is no such image";
+  } else
+    try {
+      const tinygltf::Image& source = file_.model.images[std::size_t(index)];
+      if (source.bufferView >= 0)
+        image = decode_image(view_bytes(file_, source.bufferView, place), source.name, reason);
+      else
+        image = decode_image(load_uri(file_, source.uri, place), source.uri, reason);
+    } catch (const Error& error) {
+      reason = error.what();
+    }
+  if (!reason.empty()) tree_.warnings.push_back(place + ": texture not read: " + reason);
+  tree_.images.push_back(std::move(image));
+  return entry->second;
+}
+
+}  // namespace leafhull

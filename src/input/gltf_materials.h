@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "input/gltf_file.h"
+#include "leafhull/tree.h"
+
+namespace leafhull {
+
+/// How the texture coordinates of a material become those of its image. KHR_texture_transform.
+struct TextureMapping {
+  int set = 0;  ///< n of TEXCOORD_n
+  Vec2d offset{}, scale{1, 1};
+  double rotation = 0;  ///< radians, counter-clockwise as seen
+
+  bool is_identity() const { return offset == Vec2d{} && scale == Vec2d{1, 1} && rotation == 0; }
+  void apply(std::vector<Vec2f>& uvs) const;
+};
+
+/// Turns the materials of a file into those of a tree, images of base colours included.
+class MaterialReader {
+ public:
+  MaterialReader(GltfFile& file, TreeModel& tree) : file_(file), tree_(tree) {}
+
+  /// Reads every material into the tree, without its image.
+  void read_all();
+
+  /// The image of a material is decoded when a primitive first asks for its mapping.
+  /// @throws Error input at `user`: no such material.
+  TextureMapping use(int material, const std::string& user);
+
+ private:
+  struct BaseColor {
+    int texture = -1;
+    TextureMapping mapping;
+  };
+
+  BaseColor read_base_color(const tinygltf::Material& from, Material& to) const;
+  int image_of(int texture, Material& material, const std::string& place);
+  int read_image(int image);
+
+  GltfFile& file_;
+  TreeModel& tree_;
+  std::vector<BaseColor> base_colors_;
+  std::map<int, int> images_;  // from the file's to the tree's
+};
+
+}  // namespace leafhull

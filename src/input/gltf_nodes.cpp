@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "input/gltf_nodes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "input/gltf_accessor.h"
+
+namespace leafhull {
+namespace {
+
+using Quaternion = std::array<double, 4>;  // x, y, z, w
+
+Transform operator*(const Transform& a, const Transform& b) {
+  Transform product{};
+  for (int row = 0; row < 3; ++row)
+    for (int column = 0; column < 4; ++column) {
+      product[row][column] = column == 3 ? a[row][3] : 0;
+      for (int k = 0; k < 3; ++k) product[row][column] += a[row][k] * b[k][column];
+    }
+  return product;
+}
+
+Transform compose(Vec3d t, Quaternion q, Vec3d s) {
+  const double norm = std::sqrt(std::inner_product(q.begin(), q.end(), q.begin(), 0.0));
+  for (double& part : q) part /= norm;
+  const auto [x, y, z, w] = q;
+  return {
+      {{s.x * (1 - 2 * (y * y + z * z)), s.y * 2 * (x * y - z * w), s.z * 2 * (x * z + y * w), t.x},
+       {s.x * 2 * (x * y + z * w), s.y * (1 - 2 * (x * x + z * z)), s.z * 2 * (y * z - x * w), t.y},
+       {s.x * 2 * (x * z - y * w), s.y * 2 * (y * z + x * w), s.z * (1 - 2 * (x * x + y * y)),
+        t.z}}};
+}
+
+bool is_finite(const Transform& transform) {
+  for (const auto& row : transform)
+    for (const double entry : row)
+      if (!std::isfinite(entry)) return false;
+  return true;
+}
+
+Transform local_transform(const tinygltf::Node& node) {
+  if (!node.matrix.empty()) {
+    Transform rows{};
+    for (std::size_t row = 0; row < 3; ++row)
+      for (std::size_t column = 0; column < 4; ++column)
+        rows[row][column] = node.matrix[4 * column + row];
+    return rows;
+  }
+  const auto vec3 = [](const std::vector<double>& v, Vec3d missing) {
+    return v.empty() ? missing : Vec3d(v[0], v[1], v[2]);
+  };
+  const std::vector<double>& r = node.rotation;
+  return compose(vec3(node.translation, {0, 0, 0}),
+                 r.empty() ? Quaternion{0, 0, 0, 1} : Quaternion{r[0], r[1], r[2], r[3]},
+                 vec3(node.scale, {1, 1, 1}));
+}
+
+// The transforms of EXT_mesh_gpu_instancing, relative to the node.
+std::vector<Transform> copies_of(GltfFile& file, const tinygltf::Value& extension,
+                                 const std::string& place) {
+  const tinygltf::Value& attributes = extension.Get("attributes");
+  const auto accessor = [&](const char* name) { return integer(attributes, name, -1); };
+  const int translation = accessor("TRANSLATION"), rotation = accessor("ROTATION");
+  const int scale = accessor("SCALE");
+
+  std::vector<Vec3f> translations, scales;
+  std::vector<std::array<float, 4>> rotations;
+  if (translation >= 0) translations = read_vec3(file, translation, place + ", TRANSLATION");
+  if (rotation >= 0) rotations = read_vec4(file, rotation, place + ", ROTATION");
+  if (scale >= 0) scales = read_vec3(file, scale, place + ", SCALE");
+  const std::size_t count = std::max({translations.size(), rotations.size(), scales.size()});
+  if ((translation >= 0 && translations.size() != count) ||
+      (rotation >= 0 && rotations.size() != count) || (scale >= 0 && scales.size() != count))
+    file.fail(place, "its attributes differ in count");
+
+  std::vector<Transform> copies;
+  copies.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    Quaternion q{0, 0, 0, 1};
+    if (rotation >= 0) std::ranges::copy(rotations[i], q.begin());
+    copies.push_back(compose(translation >= 0 ? Vec3d(translations[i]) : Vec3d(0, 0, 0), q,
+                             scale >= 0 ? Vec3d(scales[i]) : Vec3d(1, 1, 1)));
+    if (!is_finite(copies.back()))
+      file.fail(place, "copy " + std::to_string(i) + " has a transform that is not finite");
+  }
+  return copies;
+}
+
+std::vector<int> root_nodes(const GltfFile& file) {
+  const tinygltf::Model& model = file.model;
+  if (model.defaultScene >= 0 && std::size_t(model.defaultScene) >= model.scenes.size())
+    file.fail("scene", "there is no " + place_of("scenes", std::size_t(model.defaultScene)));
+  if (!model.scenes.empty())
+    return model.scenes[std::size_t(std::max(model.defaultScene, 0))].nodes;
+
+  std::vector<bool> is_child(model.nodes.size(), false);
+  for (const tinygltf::Node& node : model.nodes)
+    for (const int child : node.children)
+      if (std::size_t(child) < is_child.size()) is_child[std::size_t(child)] = true;
+  std::vector<int> roots;
+  for (std::size_t i = 0; i < is_child.size(); ++i)
+    if (!is_child[i]) roots.push_back(int(i));
+  return roots;
+}
+
+}  // namespace
+
+std::vector<Placement> place_meshes(GltfFile& file) {
+  struct Visit {
+    int node;
+    Transform parent;
+  };
+  std::vector<Visit> stack;
+  const auto push = [&](const std::vector<int>& nodes, const Transform& parent) {
+    for (auto node = nodes.rbegin(); node != nodes.rend(); ++node) stack.push_back({*node, parent});
+  };
+  push(root_nodes(file), kIdentity);
+
+  std::vector<Placement> placements;
+  std::vector<bool> visited(file.model.nodes.size(), false);
+  while (!stack.empty()) {
+    const auto [index, parent] = stack.back();
+    stack.pop_back();
+    const std::string place = place_of("nodes", std::size_t(index));
+    if (std::size_t(index) >= visited.size()) file.fail("nodes", "there is no " + place);
+    if (visited[std::size_t(index)])
+      file.fail(place, "is reached twice: the nodes have a cycle or a node has two parents");
+    visited[std::size_t(index)] = true;
+
+    const tinygltf::Node& node = file.model.nodes[std::size_t(index)];
+    const Transform to_world = parent * local_transform(node);
+    if (!is_finite(to_world)) file.fail(place, "has a transform that is not finite");
+    push(node.children, to_world);
+    if (node.mesh < 0) continue;
+    if (std::size_t(node.mesh) >= file.model.meshes.size())
+      file.fail(place, "there is no " + place_of("meshes", std::size_t(node.mesh)));
+    if (const auto* extension = find_extension(node.extensions, "EXT_mesh_gpu_instancing"))
+      for (const Transform& copy : copies_of(file, *extension, place + ", EXT_mesh_gpu_instancing"))
+        placements.push_back({node.mesh, node.name, to_world * copy});
+    else
+      placements.push_back({node.mesh, node.name, to_world});
+  }
+  return placements;
+}
+
+}  // namespace leafhull

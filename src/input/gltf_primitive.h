@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "input/gltf_file.h"
+#include "input/gltf_materials.h"
+#include "leafhull/tree.h"
+
+namespace leafhull {
+
+/// The triangles of one primitive of a mesh, without vertices that no triangle uses. Nothing, and a
+/// warning, where it holds no triangles.
+/// @throws Error input.
+std::optional<Primitive> read_primitive(GltfFile& file, std::size_t mesh, std::size_t primitive,
+                                        MaterialReader& materials,
+                                        std::vector<std::string>& warnings);
+
+}  // namespace leafhull

@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "input/obj.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <sstream>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "input/input_error.h"
+#include "input/obj_materials.h"
+#include "input/polygon.h"
+#include "input/tinyobj_double.h"
+
+namespace leafhull {
+namespace {
+
+/// A corner of a face: indices from zero, -1 where the file gives none.
+struct Corner {
+  int position = -1, uv = -1, normal = -1;
+  friend auto operator<=>(const Corner&, const Corner&) = default;
+};
+
+/// The faces of one object, group and material.
+struct Part {
+  std::string mesh_name, node_name;
+  int material = -1;
+  std::vector<Corner> corners{};
+  std::vector<std::size_t> faces{};  // where each ends in `corners`
+};
+
+// tinyobjloader reads what is not a number as zero.
+void check_positions(std::string_view text, const std::string& file) {
+  for (std::size_t number = 1; !text.empty(); ++number) {
+    const std::size_t end = std::min(text.find('\n'), text.size() - 1);
+    const std::string_view line = text.substr(0, end);
+    if (line.starts_with("v ") &&
+        line.find_first_not_of("+-.0123456789eE \t\r", 1) != std::string_view::npos)
+      input_error(file, "line " + std::to_string(number),
+                  in_quotes(line) + " is not a vertex of finite numbers",
+                  "Repair the mesh in the program that made it, then export it again.");
+    text.remove_prefix(end + 1);
+  }
+}
+
+/// Collects the file as tinyobjloader goes through it. Its own triangulation loses concave
+/// polygons.
+class Collector {
+ public:
+  Collector(const std::string& file, ObjMaterials& materials)
+      : file_(file), materials_(materials) {}
+
+  void run(std::string_view text) {
+    tinyobj_double::callback_t callback;
+    callback.vertex_cb = [](void* self, auto x, auto y, auto z, auto) {
+      of(self).positions.push_back({x, y, z});
+    };
+    callback.normal_cb = [](void* self, auto x, auto y, auto z) {
+      of(self).normals.push_back(Vec3f(Vec3d(x, y, z)));
+    };
+    callback.texcoord_cb = [](void* self, auto u, auto v, auto) { of(self).uvs.push_back({u, v}); };
+    callback.index_cb = [](void* self, tinyobj_double::index_t* corners, int count) {
+      of(self).add_face({corners, std::size_t(count)});
+    };
+    callback.usemtl_cb = [](void* self, const char* rest_of_line, int) {
+      const std::string name = rest_of_line;
+      of(self).material_ =
+          of(self).materials_.find_or_add(name.substr(0, name.find_last_not_of(" \t") + 1));
+      of(self).part_ = nullptr;
+    };
+    callback.group_cb = [](void* self, const char** names, int count) {
+      std::string& group = of(self).group_;
+      group.clear();
+      for (int i = 0; i < count; ++i) (group += i > 0 ? " " : "") += names[i];
+      of(self).part_ = nullptr;
+    };
+    callback.object_cb = [](void* self, const char* name) {
+      of(self).object_ = name;
+      of(self).group_.clear();
+      of(self).part_ = nullptr;
+    };
+    std::istringstream stream{std::string(text)};
+    tinyobj_double::LoadObjWithCallback(stream, callback, this);
+  }
+
+  std::vector<Vec3d> positions;
+  std::vector<Vec3f> normals;
+  std::vector<Vec2d> uvs;
+  std::vector<Part> parts;
+
+ private:
+  static Collector& of(void* self) { return *static_cast<Collector*>(self); }
+
+  void add_face(std::span<const tinyobj_double::index_t> corners) {
+    ++face_count_;
+    if (corners.size() < 3) return;
+    Part& part = current_part();
+    for (const tinyobj_double::index_t& corner : corners)
+      part.corners.push_back({index(corner.vertex_index, positions.size(), true),
+                              index(corner.texcoord_index, uvs.size(), false),
+                              index(corner.normal_index, normals.size(), false)});
+    part.faces.push_back(part.corners.size());
+  }
+
+  // Counts from one, or back from the last; zero stands for nothing.
+  int index(int written, std::size_t count, bool required) const {
+    const std::int64_t index =
+        written < 0 ? std::int64_t(count) + written : std::int64_t(written) - 1;
+    if ((written == 0 && required) || index < -1 || (written < 0 && index < 0))
+      input_error(file_, "face " + std::to_string(face_count_),
+                  "index " + std::to_string(written) + " names no vertex");
+    return int(index);
+  }
+
+  Part& current_part() {
+    if (!part_) {
+      const auto [entry, is_new] =
+          numbers_.emplace(std::tuple(object_, group_, material_), parts.size());
+      if (is_new)
+        parts.push_back({.mesh_name = group_.empty() ? object_ : group_,
+                         .node_name = object_.empty() ? group_ : object_,
+                         .material = material_});
+      part_ = &parts[entry->second];
+    }
+    return *part_;
+  }
+
+  const std::string& file_;
+  ObjMaterials& materials_;
+  std::map<std::tuple<std::string, std::string, int>, std::size_t> numbers_;
+  std::string object_, group_;
+  int material_ = -1;
+  Part* part_ = nullptr;
+  std::size_t face_count_ = 0;
+};
+
+/// Turns parts into primitives around an origin.
+class PrimitiveMaker {
+ public:
+  PrimitiveMaker(const Collector& obj, const ObjMaterials& materials, const std::string& file)
+      : obj_(obj), materials_(materials), file_(file) {}
+
+  /// Zero, or the middle of a tree so far out that floats would lose its shape.
+  Vec3d origin() const {
+    Box box;
+    for (const Part& part : obj_.parts)
+      for (const Corner& corner : part.corners) box.include(obj_.positions[corner.position]);
+    const Vec3d middle = (box.low + box.high) / 2;
+    return length(middle) > 16 * box.longest_side() ? middle : Vec3d{};
+  }
+
+  void check(const Part& part) const {
+    const auto inside = [](int index, std::size_t count) { return index < std::int64_t(count); };
+    for (const Corner& corner : part.corners) {
+      if (!inside(corner.position, obj_.positions.size()) || !inside(corner.uv, obj_.uvs.size()) ||
+          !inside(corner.normal, obj_.normals.size()))
+        input_error(file_, "a face of " + in_quotes(part.mesh_name),
+                    "index past the vertices, normals or texture coordinates of the file");
+      const Vec3d p = obj_.positions[corner.position];
+      if (!std::isfinite(float(p.x)) || !std::isfinite(float(p.y)) || !std::isfinite(float(p.z)))
+        input_error(file_, "vertex " + std::to_string(corner.position + 1), "is not finite",
+                    "Repair the mesh in the program that made it, then export it again.");
+    }
+  }
+
+  Primitive make(const Part& part, Vec3d origin) const {
+    Primitive primitive;
+    primitive.mesh_name = part.mesh_name;
+    primitive.material = part.material;
+    const bool has_normals = std::ranges::all_of(part.corners, &has_normal);
+    const bool has_uvs = std::ranges::all_of(part.corners, &has_uv);
+    std::map<Corner, std::uint32_t> vertices;
+    const auto vertex = [&](const Corner& corner) {
+      const auto [entry, is_new] = vertices.emplace(corner, std::uint32_t(vertices.size()));
+      if (is_new) {
+        primitive.positions.push_back(Vec3f(obj_.positions[corner.position] - origin));
+        if (has_normals) primitive.normals.push_back(obj_.normals[corner.normal]);
+        if (has_uvs) primitive.uvs.push_back(image_uv(part.material, obj_.uvs[corner.uv]));
+      }
+      return entry->second;
+    };
+
+    std::vector<Vec3d> polygon;
+    std::size_t begin = 0;
+    for (const std::size_t end : part.faces) {
+      polygon.clear();
+      for (std::size_t i = begin; i < end; ++i)
+        polygon.push_back(obj_.positions[part.corners[i].position]);
+      for (const auto& [a, b, c] : triangulate(polygon))
+        primitive.triangles.push_back({vertex(part.corners[begin + a]),
+                                       vertex(part.corners[begin + b]),
+                                       vertex(part.corners[begin + c])});
+      begin = end;
+    }
+    return primitive;
+  }
+
+ private:
+  static bool has_normal(const Corner& corner) { return corner.normal >= 0; }
+  static bool has_uv(const Corner& corner) { return corner.uv >= 0; }
+
+  Vec2f image_uv(int material, Vec2d uv) const {
+    if (material < 0) return {float(uv.x), float(1 - uv.y)};
+    return image_coordinates(materials_.materials[std::size_t(material)], uv.x, uv.y);
+  }
+
+  const Collector& obj_;
+  const ObjMaterials& materials_;
+  const std::string& file_;
+};
+
+}  // namespace
+
+TreeModel read_obj(ByteSpan bytes, const std::filesystem::path& path) {
+  const std::string file = path.string();
+  const std::string_view text = text_of(bytes);
+  check_positions(text, file);
+
+  TreeModel tree;
+  const std::filesystem::path folder = path.parent_path();
+  ObjMaterials materials = read_material_libraries(text, folder, tree.warnings);
+  Collector obj(file, materials);
+  obj.run(text);
+  if (obj.parts.empty())
+    input_error(file, "", "holds no faces",
+                "Give an OBJ file with polygons (lines that begin with f).");
+
+  const PrimitiveMaker maker(obj, materials, file);
+  for (const Part& part : obj.parts) maker.check(part);
+  const Vec3d origin = maker.origin();
+  Transform to_world = kIdentity;
+  to_world[0][3] = origin.x;
+  to_world[1][3] = origin.y;
+  to_world[2][3] = origin.z;
+
+  std::vector<bool> used(materials.materials.size(), false);
+  for (const Part& part : obj.parts) {
+    if (part.material >= 0) used[std::size_t(part.material)] = true;
+    tree.instances.push_back({std::uint32_t(tree.primitives.size()), part.node_name, to_world});
+    tree.primitives.push_back(maker.make(part, origin));
+  }
+  add_materials(materials, used, folder, tree);
+  return tree;
+}
+
+}  // namespace leafhull

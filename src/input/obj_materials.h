@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "input/tinyobj_double.h"
+#include "leafhull/tree.h"
+
+namespace leafhull {
+
+/// The materials of an OBJ file: those of its libraries, then those that only its faces name.
+struct ObjMaterials {
+  std::vector<tinyobj_double::material_t> materials;
+  std::map<std::string, int> by_name;
+
+  /// The index of a material; one that no library has is added, for its name alone can tell leaves.
+  int find_or_add(const std::string& name);
+};
+
+/// @param warnings gets a line for each library that cannot be read.
+ObjMaterials read_material_libraries(std::string_view obj, const std::filesystem::path& folder,
+                                     std::vector<std::string>& warnings);
+
+/// Adds the materials that are `used` to a tree with their images; the others without.
+void add_materials(const ObjMaterials& from, const std::vector<bool>& used,
+                   const std::filesystem::path& folder, TreeModel& tree);
+
+/// The texture coordinates of a material's image, v down, for those of the file.
+Vec2f image_coordinates(const tinyobj_double::material_t& material, double u, double v);
+
+}  // namespace leafhull

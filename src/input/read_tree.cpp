@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cctype>
+#include <string>
+#include <string_view>
+#include <system_error>
+
+#include "input/file_bytes.h"
+#include "input/gltf.h"
+#include "input/input_error.h"
+#include "input/obj.h"
+#include "leafhull/tree.h"
+
+namespace leafhull {
+namespace {
+
+std::string lower_extension(const std::filesystem::path& path) {
+  std::string extension = path.extension().string();
+  std::ranges::transform(extension, extension.begin(),
+                         [](unsigned char c) { return char(std::tolower(c)); });
+  return extension;
+}
+
+bool looks_like_gltf(std::string_view text) {
+  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);  // a byte order mark
+  const std::size_t first = text.find_first_not_of(" \t\r\n");
+  return text.starts_with("glTF") || (first != std::string_view::npos && text[first] == '{');
+}
+
+Bytes read_tree_file(const std::filesystem::path& path) try {
+  return read_file(path);
+} catch (const std::system_error& error) {
+  input_error(path.string(), "", "cannot be read: " + error.code().message(),
+              "Give the path of a .glb, .gltf or .obj file that you may read.");
+}
+
+}  // namespace
+
+TreeModel read_tree(const std::filesystem::path& path) {
+  constexpr std::string_view kFormats = "Give a .glb, .gltf or .obj file.";
+  const Bytes bytes = read_tree_file(path);
+  const std::string extension = lower_extension(path);
+  if (bytes.empty()) input_error(path.string(), "", "is empty", kFormats);
+
+  TreeModel tree;
+  if (looks_like_gltf(text_of(bytes)))
+    tree = read_gltf(bytes, path.string(), path.parent_path());
+  else if (extension == ".obj")
+    tree = read_obj(bytes, path);
+  else if (extension == ".glb" || extension == ".gltf")
+    input_error(path.string(), "", "is not a glTF file in spite of its name", kFormats);
+  else
+    input_error(path.string(), "", "is neither a glTF nor an OBJ file", kFormats);
+  tree.path = path;
+  return tree;
+}
+
+}  // namespace leafhull

@@ -1,0 +1,3 @@
+// SPDX-License-Identifier: Apache-2.0
+#define TINYOBJLOADER_IMPLEMENTATION
+#include "input/tinyobj_double.h"

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "leaves/alpha_mask.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+namespace leafhull::leaves {
+namespace {
+
+constexpr double kBlendCutoff = 0.5;
+// A box that repeats the image beyond this is no picture of one leaf.
+constexpr double kMostTexels = 1 << 26;
+
+/// The texel that stands at `i` beside an image of `size` texels.
+std::int64_t wrapped(std::int64_t i, std::int64_t size, Wrap wrap) {
+  if (wrap == Wrap::clamp) return std::clamp<std::int64_t>(i, 0, size - 1);
+  const std::int64_t period = wrap == Wrap::mirror ? 2 * size : size;
+  const std::int64_t phase = (i % period + period) % period;
+  return phase < size ? phase : period - 1 - phase;
+}
+
+/// First and last texel whose centre lies between two texture coordinates.
+std::pair<double, double> texel_range(double low, double high, int size) {
+  return {std::ceil(low * size - 0.5), std::floor(high * size - 0.5)};
+}
+
+}  // namespace
+
+AlphaMask::AlphaMask(const Material& material, const Image& image)
+    : image_(&image), wrap_u_(material.wrap_u), wrap_v_(material.wrap_v) {
+  const double cutoff =
+      material.alpha_mode == AlphaMode::blend ? kBlendCutoff : material.alpha_cutoff;
+  for (int alpha = 0; alpha < 256; ++alpha) {
+    kept_[alpha] = alpha / 255.0 * material.base_color[3] >= cutoff;
+  }
+}
+
+std::optional<AlphaMask> AlphaMask::of(const Material& material, const std::vector<Image>& images) {
+  if (material.alpha_mode == AlphaMode::opaque || material.base_color_image < 0) return {};
+  const Image& image = images[material.base_color_image];
+  if (image.empty()) return {};
+  AlphaMask mask(material, image);
+  for (std::size_t alpha = 3; alpha < image.rgba.size(); alpha += 4) {
+    if (!mask.kept_[image.rgba[alpha]]) return mask;
+  }
+  return {};
+}
+
+std::optional<TextureEllipse> AlphaMask::ellipse(const UvBox& box) {
+  const auto [left, right] = texel_range(box.low.x, box.high.x, image_->width);
+  const auto [top, bottom] = texel_range(box.low.y, box.high.y, image_->height);
+  const double width = right - left + 1;
+  const double height = bottom - top + 1;
+  constexpr double kFarthest = 1e15;
+  const bool fits =
+      width * height <= kMostTexels && std::abs(left) < kFarthest && std::abs(top) < kFarthest;
+  if (!(width >= 1 && height >= 1 && fits)) return {};
+
+  const auto texel = [](double index) { return static_cast<std::int64_t>(index); };
+  const Texels texels{texel(left), texel(right), texel(top), texel(bottom)};
+  const auto [known, is_new] = ellipses_.try_emplace(texels);
+  if (is_new) known->second = moments(texels);
+  return known->second;
+}
+
+bool AlphaMask::is_kept(std::int64_t x, std::int64_t y) const {
+  const std::int64_t column = wrapped(x, image_->width, wrap_u_);
+  const std::int64_t row = wrapped(y, image_->height, wrap_v_);
+  return kept_[image_->rgba[4 * (row * image_->width + column) + 3]];
+}
+
+std::optional<TextureEllipse> AlphaMask::moments(const Texels& texels) const {
+  const Eigen::Array2d size(image_->width, image_->height);
+  const Eigen::Array2d middle(0.5 * static_cast<double>(texels.left + texels.right),
+                              0.5 * static_cast<double>(texels.top + texels.bottom));
+  double count = 0;
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  Eigen::Matrix2d squares = Eigen::Matrix2d::Zero();
+  for (std::int64_t y = texels.top; y <= texels.bottom; ++y) {
+    for (std::int64_t x = texels.left; x <= texels.right; ++x) {
+      if (!is_kept(x, y)) continue;
+      const Eigen::Vector2d p(static_cast<double>(x) - middle[0],
+                              static_cast<double>(y) - middle[1]);
+      ++count;
+      sum += p;
+      squares += p * p.transpose();
+    }
+  }
+  if (count == 0) return {};
+
+  const Eigen::Vector2d mean = sum / count;
+  // Each texel is a unit square, itself of variance 1/12, not a point.
+  const Eigen::Matrix2d in_texels =
+      squares / count - mean * mean.transpose() + Eigen::Matrix2d::Identity() / 12;
+  const Eigen::Matrix2d to_uv = size.inverse().matrix().asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> principal(to_uv * in_texels * to_uv);
+  const Eigen::Vector2d centre = to_uv * (mean + middle.matrix() + Eigen::Vector2d(0.5, 0.5));
+  const auto half_axis = [&](int i) {
+    const Eigen::Vector2d axis =
+        2 * std::sqrt(principal.eigenvalues()[i]) * principal.eigenvectors().col(i);
+    return Vec2d{axis.x(), axis.y()};
+  };
+  return TextureEllipse{{centre.x(), centre.y()}, half_axis(1), half_axis(0)};
+}
+
+}  // namespace leafhull::leaves

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "leaves/components.h"
+
+#include <algorithm>
+#include <numeric>
+#include <tuple>
+#include <utility>
+
+#include "leaves/leaf_mesh.h"
+
+namespace leafhull::leaves {
+namespace {
+
+// Just below cos 45 degrees: an edge of exactly 45 degrees is not cut, whatever the rounding.
+constexpr double kCosSharp = 0.7071;
+// Two faces this close to lying on each other are the front and the back of one sheet.
+constexpr double kCosDoubled = 0.9999;
+
+/// Union-find; the least member stands for its set.
+class DisjointSets {
+ public:
+  explicit DisjointSets(std::size_t count) : parent_(count) {
+    std::iota(parent_.begin(), parent_.end(), 0u);
+  }
+
+  std::uint32_t find(std::uint32_t i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+
+  void unite(std::uint32_t a, std::uint32_t b) {
+    a = find(a);
+    b = find(b);
+    parent_[std::max(a, b)] = std::min(a, b);
+  }
+
+ private:
+  std::vector<std::uint32_t> parent_;
+};
+
+Face least_rotation(const Face& face) {
+  Face least = face;
+  Face turned = face;
+  for (int turn = 0; turn < 2; ++turn) {
+    std::ranges::rotate(turned.position, turned.position.begin() + 1);
+    std::ranges::rotate(turned.vertex, turned.vertex.begin() + 1);
+    if (turned.position < least.position) least = turned;
+  }
+  return least;
+}
+
+/// An edge as one of its faces sees it.
+struct EdgeSide {
+  std::pair<std::uint32_t, std::uint32_t> ends;  ///< into LeafMesh::points, the lesser first
+  std::uint32_t face;
+  std::uint32_t corner;  ///< of the face, where the edge starts
+};
+
+/// Three for every face that has an area, those of one edge side by side.
+std::vector<EdgeSide> edge_sides(const LeafMesh& leaf) {
+  std::vector<EdgeSide> sides;
+  sides.reserve(3 * leaf.faces.size());
+  for (std::uint32_t face = 0; face < leaf.faces.size(); ++face) {
+    if (leaf.areas[face].isZero(0)) continue;
+    for (std::uint32_t corner = 0; corner < 3; ++corner) {
+      const std::uint32_t a = leaf.triangles[face][corner];
+      const std::uint32_t b = leaf.triangles[face][(corner + 1) % 3];
+      sides.push_back({std::minmax(a, b), face, corner});
+    }
+  }
+  std::ranges::sort(sides, {}, &EdgeSide::ends);
+  return sides;
+}
+
+/// The unit vector in the face that leaves the edge at right angles.
+Eigen::Vector3d inward(const LeafMesh& leaf, const EdgeSide& side) {
+  const auto& triangle = leaf.triangles[side.face];
+  const Eigen::Vector3d& start = leaf.points[triangle[side.corner]];
+  const Eigen::Vector3d edge = leaf.points[triangle[(side.corner + 1) % 3]] - start;
+  const Eigen::Vector3d across = leaf.points[triangle[(side.corner + 2) % 3]] - start;
+  return edge.cross(across).cross(edge).normalized();
+}
+
+/// Whether a sheet goes on from one face to the other, or comes back as its other side.
+bool is_smooth(const LeafMesh& leaf, const EdgeSide& a, const EdgeSide& b) {
+  const double cosine = inward(leaf, a).dot(inward(leaf, b));
+  return -cosine >= kCosSharp || cosine >= kCosDoubled;
+}
+
+}  // namespace
+
+FaceGroups::FaceGroups(std::span<const Face> faces, std::span<const std::uint32_t> labels)
+    : faces_(faces.size()) {
+  const std::size_t label_count = labels.empty() ? 0 : std::ranges::max(labels) + std::size_t{1};
+  std::vector<std::size_t> next(label_count + 1);
+  for (const std::uint32_t label : labels) ++next[label + 1];
+  for (std::size_t label = 0; label < label_count; ++label) {
+    if (next[label + 1] > 0) ends_.push_back(next[label] + next[label + 1]);
+    next[label + 1] += next[label];
+  }
+  for (std::size_t i = 0; i < faces.size(); ++i) faces_[next[labels[i]]++] = faces[i];
+}
+
+WeldedMesh weld(const Primitive& primitive) {
+  struct Stored {
+    Vec3f position;
+    std::uint32_t vertex;
+    auto key() const { return std::tie(position.x, position.y, position.z); }
+  };
+  std::vector<Stored> stored;
+  stored.reserve(primitive.positions.size());
+  // Adding zero turns -0 into 0.
+  for (const Vec3f& p : primitive.positions) {
+    stored.push_back({p + Vec3f(0, 0, 0), static_cast<std::uint32_t>(stored.size())});
+  }
+  std::ranges::sort(stored, [](const Stored& a, const Stored& b) { return a.key() < b.key(); });
+
+  WeldedMesh mesh;
+  std::vector<std::uint32_t> welded(stored.size());
+  for (const Stored& s : stored) {
+    if (mesh.positions.empty() || mesh.positions.back() != s.position) {
+      mesh.positions.push_back(s.position);
+    }
+    welded[s.vertex] = static_cast<std::uint32_t>(mesh.positions.size() - 1);
+  }
+  mesh.faces.reserve(primitive.triangles.size());
+  for (const auto& [a, b, c] : primitive.triangles) {
+    mesh.faces.push_back(least_rotation({{welded[a], welded[b], welded[c]}, {a, b, c}}));
+  }
+  std::ranges::sort(mesh.faces, {}, &Face::position);
+  return mesh;
+}
+
+FaceGroups connected_components(const WeldedMesh& mesh) {
+  DisjointSets sets(mesh.positions.size());
+  for (const Face& face : mesh.faces) {
+    sets.unite(face.position[0], face.position[1]);
+    sets.unite(face.position[0], face.position[2]);
+  }
+  std::vector<std::uint32_t> labels;
+  labels.reserve(mesh.faces.size());
+  for (const Face& face : mesh.faces) labels.push_back(sets.find(face.position[0]));
+  return {mesh.faces, labels};
+}
+
+FaceGroups split_at_sharp_edges(const LeafMesh& leaf) {
+  const auto face_count = static_cast<std::uint32_t>(leaf.faces.size());
+  const std::vector<EdgeSide> sides = edge_sides(leaf);
+  DisjointSets sets(face_count);
+  for (auto begin = sides.begin(); begin != sides.end();) {
+    const auto end = std::find_if(begin, sides.end(),
+                                  [&](const EdgeSide& side) { return side.ends != begin->ends; });
+    for (auto a = begin; a != end; ++a) {
+      for (auto b = a + 1; b != end; ++b) {
+        if (is_smooth(leaf, *a, *b)) sets.unite(a->face, b->face);
+      }
+    }
+    begin = end;
+  }
+  std::vector<std::uint32_t> labels(face_count);
+  for (std::uint32_t face = 0; face < face_count; ++face) labels[face] = sets.find(face);
+  return {leaf.faces, labels};
+}
+
+FaceGroups split_into_triangles(std::span<const Face> faces) {
+  struct Corners {
+    std::array<std::uint32_t, 3> sorted;
+    std::uint32_t face;
+    auto operator<=>(const Corners&) const = default;
+  };
+  std::vector<Corners> corners;
+  corners.reserve(faces.size());
+  for (const Face& face : faces) {
+    auto sorted = face.position;
+    std::ranges::sort(sorted);
+    corners.push_back({sorted, static_cast<std::uint32_t>(corners.size())});
+  }
+  std::ranges::sort(corners);
+  std::vector<std::uint32_t> labels(faces.size());
+  std::uint32_t label = 0;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    if (i == 0 || corners[i].sorted != corners[i - 1].sorted) label = corners[i].face;
+    labels[corners[i].face] = label;
+  }
+  return {faces, labels};
+}
+
+}  // namespace leafhull::leaves

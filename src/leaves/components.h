@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "leafhull/tree.h"
+
+namespace leafhull::leaves {
+
+struct LeafMesh;
+
+/// A triangle whose corners are known twice: by position, where exporters' seams are welded, and by
+/// stored vertex, which has the texture coordinates and the normal.
+struct Face {
+  std::array<std::uint32_t, 3> position;  ///< into WeldedMesh::positions; the least rotation
+  std::array<std::uint32_t, 3> vertex;    ///< into Primitive::positions
+};
+
+/// Faces in groups, each group side by side.
+class FaceGroups {
+ public:
+  /// Faces with equal labels form a group and keep their order; groups go by label.
+  FaceGroups(std::span<const Face> faces, std::span<const std::uint32_t> labels);
+
+  std::size_t size() const { return ends_.size(); }
+  std::span<const Face> operator[](std::size_t group) const {
+    const std::size_t begin = group == 0 ? 0 : ends_[group - 1];
+    return std::span(faces_).subspan(begin, ends_[group] - begin);
+  }
+
+ private:
+  std::vector<Face> faces_;
+  std::vector<std::size_t> ends_;
+};
+
+/// A primitive whose vertices at bit-equal positions are one. Everything is in an order that
+/// depends on the geometry alone, so that sums over it do too.
+struct WeldedMesh {
+  std::vector<Vec3f> positions;  ///< distinct, ascending by x, y, z; no negative zero
+  std::vector<Face> faces;       ///< ascending by position
+};
+
+WeldedMesh weld(const Primitive& primitive);
+
+/// Triangles that hang together by their vertices.
+FaceGroups connected_components(const WeldedMesh& mesh);
+
+/// What hangs together across edges that are not sharper than 45 degrees.
+FaceGroups split_at_sharp_edges(const LeafMesh& leaf);
+
+/// Single triangles; the front and the back of one stay together.
+FaceGroups split_into_triangles(std::span<const Face> faces);
+
+}  // namespace leafhull::leaves

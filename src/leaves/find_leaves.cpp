@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+
+#include "leafhull/error.h"
+#include "leafhull/leaves.h"
+#include "leaves/alpha_mask.h"
+#include "leaves/components.h"
+#include "leaves/ellipse.h"
+#include "leaves/frame.h"
+#include "leaves/leaf_mesh.h"
+#include "leaves/order.h"
+#include "leaves/placement.h"
+#include "leaves/selection.h"
+
+namespace leafhull {
+namespace {
+
+using namespace leaves;
+
+Vec3f to_vec3f(const Eigen::Vector3d& v) { return Vec3f(Vec3d(v.x(), v.y(), v.z())); }
+
+void check(const LeafOptions& options) {
+  if (!(options.scale > 0) || !std::isfinite(options.scale)) {
+    throw Error(ErrorCode::usage, "--leaf-scale is not a positive number",
+                "Give the factor for the leaves' radii, 1 to leave them.");
+  }
+  if (!options.ellipse) return;
+  const auto& [centre, a, b] = *options.ellipse;
+  const double area = a.x * b.y - a.y * b.x;
+  if (!std::isfinite(area) || !std::isfinite(centre.x + centre.y) || area == 0) {
+    throw Error(ErrorCode::usage, "--ellipse has half axes along one line or of no length",
+                "Give cu,cv,au,av,bu,bv: its centre and two half axes in texture space.");
+  }
+}
+
+/// Takes the leaves of one placed primitive after the other.
+class LeafCollector {
+ public:
+  LeafCollector(const TreeModel& tree, const LeafOptions& options, LeafSet& leaves)
+      : tree_(tree), options_(options), leaves_(leaves) {}
+
+  /// Places `mesh`, which is `primitive` welded, and takes its components.
+  void take(const Primitive& primitive, const WeldedMesh& mesh, const FaceGroups& components,
+            const Transform& to_world) {
+    const Source source{primitive, mesh, Placement(to_world), texture_of(primitive)};
+    for (std::size_t i = 0; i < components.size(); ++i) take_component(source, components[i]);
+  }
+
+  /// Leaves whose texture should have told their ellipse and did not.
+  std::size_t untextured() const { return untextured_; }
+
+ private:
+  struct Source {
+    const Primitive& primitive;
+    const WeldedMesh& mesh;
+    Placement placement;
+    TextureSource texture;
+  };
+
+  TextureSource texture_of(const Primitive& primitive) {
+    TextureSource source{primitive.uvs, options_.ellipse, nullptr};
+    if (primitive.material < 0 || options_.ellipse) return source;
+    const auto [known, is_new] = masks_.try_emplace(primitive.material);
+    if (is_new) known->second = AlphaMask::of(tree_.materials[primitive.material], tree_.images);
+    if (known->second) source.mask = &*known->second;
+    return source;
+  }
+
+  void take_component(const Source& source, std::span<const Face> component) {
+    if (take_if_flat(source, component)) return;
+    ++leaves_.split_components;
+    const FaceGroups pieces = split_at_sharp_edges(mesh_);
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+      if (pieces[i].size() < component.size() && take_if_flat(source, pieces[i])) continue;
+      const FaceGroups triangles = split_into_triangles(pieces[i]);
+      for (std::size_t t = 0; t < triangles.size(); ++t) take_leaf(source, triangles[t]);
+    }
+  }
+
+  /// False, and `mesh_` holds the faces, where they are not one flat leaf.
+  bool take_if_flat(const Source& source, std::span<const Face> faces) {
+    mesh_.assign(source.mesh, faces, source.placement.linear);
+    const std::optional<LeafEllipse> ellipse = fit_ellipse(mesh_, source.texture);
+    if (ellipse && !ellipse->flat) return false;
+    take_mesh(source, ellipse);
+    return true;
+  }
+
+  void take_leaf(const Source& source, std::span<const Face> faces) {
+    mesh_.assign(source.mesh, faces, source.placement.linear);
+    take_mesh(source, fit_ellipse(mesh_, source.texture));
+  }
+
+  void take_mesh(const Source& source, const std::optional<LeafEllipse>& ellipse) {
+    if (!ellipse || !append_vertices(source, *ellipse)) {
+      ++leaves_.dropped_leaves;
+      return;
+    }
+    ++leaves_.leaf_count;
+    if (source.texture.draws() && !ellipse->from_texture) ++untextured_;
+  }
+
+  /// One kernel frame a vertex, or nothing where a value has no place in a float.
+  bool append_vertices(const Source& source, const LeafEllipse& ellipse) {
+    const auto radius_major = static_cast<float>(options_.scale * ellipse.major.norm());
+    const auto radius_minor = static_cast<float>(options_.scale * ellipse.minor.norm());
+    if (!(radius_minor > 0) || !std::isfinite(radius_major)) return false;
+    const auto number = static_cast<std::uint32_t>(leaves_.leaf_count);
+    const std::size_t before = leaves_.vertices.size();
+    const std::vector<Eigen::Vector3d> normals =
+        vertex_normals(mesh_, source.primitive.normals, source.placement, ellipse.normal);
+    for (std::size_t i = 0; i < mesh_.points.size(); ++i) {
+      const Eigen::Vector3d local = to_eigen(source.mesh.positions[mesh_.positions[i]]);
+      const Eigen::Vector3d world = source.placement.linear * local + source.placement.translation;
+      const Eigen::Vector3d major = major_direction(ellipse, normals[i]);
+      if (!world.allFinite() || !normals[i].allFinite() || !major.allFinite()) {
+        leaves_.vertices.resize(before);
+        return false;
+      }
+      leaves_.vertices.push_back({{world.x(), world.y(), world.z()},
+                                  to_vec3f(normals[i]),
+                                  to_vec3f(major),
+                                  radius_major,
+                                  radius_minor,
+                                  number});
+    }
+    return true;
+  }
+
+  const TreeModel& tree_;
+  const LeafOptions& options_;
+  LeafSet& leaves_;
+  LeafMesh mesh_;
+  std::map<int, std::optional<AlphaMask>> masks_;  ///< by material
+  std::size_t untextured_ = 0;
+};
+
+/// R_u once a leaf, in the order of the leaves' numbers.
+double mean_radius_major(const LeafSet& leaves) {
+  double sum = 0;
+  std::uint32_t next = 0;
+  for (const LeafVertex& vertex : leaves.vertices) {
+    if (vertex.leaf < next) continue;
+    sum += vertex.radius_major;
+    ++next;
+  }
+  return sum / static_cast<double>(leaves.leaf_count);
+}
+
+}  // namespace
+
+LeafSet find_leaves(const TreeModel& tree, const LeafOptions& options) {
+  check(options);
+  LeafSet leaves;
+  const std::vector<std::uint32_t> selected = select_leaves(tree, options, leaves.warnings);
+
+  LeafCollector collector(tree, options, leaves);
+  for (auto first = selected.begin(); first != selected.end();) {
+    const std::uint32_t index = tree.instances[*first].primitive;
+    const Primitive& primitive = tree.primitives[index];
+    const WeldedMesh mesh = weld(primitive);
+    const FaceGroups components = connected_components(mesh);
+    for (; first != selected.end() && tree.instances[*first].primitive == index; ++first) {
+      collector.take(primitive, mesh, components, tree.instances[*first].to_world);
+    }
+  }
+  if (leaves.vertices.empty()) {
+    throw Error(ErrorCode::input,
+                "none of the " + std::to_string(leaves.dropped_leaves) + " leaves of " +
+                    tree.path.string() + " has an area and finite coordinates",
+                "Look at the model with leafhull inspect, or choose other leaves with --leaves.");
+  }
+  if (collector.untextured() > 0) {
+    leaves.warnings.push_back(std::to_string(collector.untextured()) +
+                              " leaves have no usable texture coordinates or nothing of the "
+                              "texture; their ellipses are those of their triangles");
+  }
+  for (const LeafVertex& vertex : leaves.vertices) leaves.bounds.include(vertex.position);
+  sort_vertices(leaves);
+  leaves.mean_radius_major = mean_radius_major(leaves);
+  return leaves;
+}
+
+}  // namespace leafhull

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "leaves/order.h"
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+#include <tuple>
+
+namespace leafhull::leaves {
+namespace {
+
+constexpr int kBitsPerAxis = 21;
+
+/// Two zero bits after each of the low 21 bits.
+std::uint64_t spread_bits(std::uint64_t bits) {
+  bits = (bits | bits << 32) & 0x001f00000000ffff;
+  bits = (bits | bits << 16) & 0x001f0000ff0000ff;
+  bits = (bits | bits << 8) & 0x100f00f00f00f00f;
+  bits = (bits | bits << 4) & 0x10c30c30c30c30c3;
+  return (bits | bits << 2) & 0x1249249249249249;
+}
+
+std::uint64_t morton_code(const Vec3d& position, const Box& bounds) {
+  constexpr double kCells = 1 << kBitsPerAxis;
+  const double side = bounds.longest_side();
+  const Vec3d scaled = side > 0 ? (position - bounds.low) / side * kCells : Vec3d{};
+  const auto cell = [](double x) {
+    return spread_bits(static_cast<std::uint64_t>(std::min(x, kCells - 1)));
+  };
+  return cell(scaled.x) | cell(scaled.y) << 1 | cell(scaled.z) << 2;
+}
+
+bool precedes(const LeafVertex& a, const LeafVertex& b) {
+  const auto key = [](const LeafVertex& v) {
+    return std::tie(v.position.x, v.position.y, v.position.z, v.normal.x, v.normal.y, v.normal.z,
+                    v.major.x, v.major.y, v.major.z, v.radius_major, v.radius_minor);
+  };
+  return key(a) < key(b);
+}
+
+/// Each leaf's place among the leaves compared by all their vertices: vertices that agree in
+/// everything may belong to different leaves.
+std::vector<std::uint32_t> rank_leaves(const LeafSet& leaves) {
+  std::vector<std::size_t> begin(leaves.leaf_count + 1);
+  for (const LeafVertex& vertex : leaves.vertices) ++begin[vertex.leaf + 1];
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+
+  std::vector<std::uint32_t> order(leaves.leaf_count);
+  std::iota(order.begin(), order.end(), 0u);
+  const auto at = [&](std::size_t i) { return leaves.vertices.begin() + static_cast<long>(i); };
+  std::ranges::sort(order, [&](std::uint32_t a, std::uint32_t b) {
+    return std::lexicographical_compare(at(begin[a]), at(begin[a + 1]), at(begin[b]),
+                                        at(begin[b + 1]), precedes);
+  });
+  std::vector<std::uint32_t> rank(leaves.leaf_count);
+  for (std::uint32_t place = 0; place < order.size(); ++place) rank[order[place]] = place;
+  return rank;
+}
+
+std::vector<LeafVertex> sorted_vertices(const LeafSet& leaves) {
+  struct Entry {
+    std::uint64_t code;
+    std::uint32_t vertex;
+  };
+  const std::vector<LeafVertex>& vertices = leaves.vertices;
+  const std::vector<std::uint32_t> rank = rank_leaves(leaves);
+  std::vector<Entry> entries;
+  entries.reserve(vertices.size());
+  for (const LeafVertex& vertex : vertices) {
+    entries.push_back(
+        {morton_code(vertex.position, leaves.bounds), static_cast<std::uint32_t>(entries.size())});
+  }
+  std::ranges::sort(entries, [&](const Entry& a, const Entry& b) {
+    if (a.code != b.code) return a.code < b.code;
+    const LeafVertex& first = vertices[a.vertex];
+    const LeafVertex& second = vertices[b.vertex];
+    if (precedes(first, second)) return true;
+    if (precedes(second, first)) return false;
+    return rank[first.leaf] < rank[second.leaf];
+  });
+  std::vector<LeafVertex> sorted;
+  sorted.reserve(vertices.size());
+  for (const Entry& entry : entries) sorted.push_back(vertices[entry.vertex]);
+  return sorted;
+}
+
+}  // namespace
+
+void sort_vertices(LeafSet& leaves) {
+  leaves.vertices = sorted_vertices(leaves);
+  constexpr std::uint32_t kUnseen = std::numeric_limits<std::uint32_t>::max();
+  std::vector<std::uint32_t> renumbered(leaves.leaf_count, kUnseen);
+  std::uint32_t next = 0;
+  for (LeafVertex& vertex : leaves.vertices) {
+    std::uint32_t& number = renumbered[vertex.leaf];
+    if (number == kUnseen) number = next++;
+    vertex.leaf = number;
+  }
+}
+
+}  // namespace leafhull::leaves

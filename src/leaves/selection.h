@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "leafhull/leaves.h"
+
+namespace leafhull::leaves {
+
+/// The instances that are leaves, those of one primitive side by side; a pattern that matches
+/// nothing is named in `warnings`.
+/// @throws Error input where nothing matches.
+std::vector<std::uint32_t> select_leaves(const TreeModel& tree, const LeafOptions& options,
+                                         std::vector<std::string>& warnings);
+
+}  // namespace leafhull::leaves

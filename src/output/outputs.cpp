@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <unistd.h>
+
+#include <array>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <vector>
+
+#include "leafhull/error.h"
+#include "leafhull/output.h"
+#include "output/destination.h"
+#include "output/file_stream.h"
+#include "output/transaction.h"
+#include "output/writers.h"
+#include "surface/volume.h"
+
+namespace leafhull {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kStandardOutput = "-";
+
+struct ShapeFormat {
+  std::string_view extension;
+  void (*write)(const Shape& shape, std::ostream& stream);
+};
+
+void write_field(const Shape& shape, std::ostream& stream) {
+  write_vdb(density_grid(*shape.field), stream);
+}
+
+template <void (*write)(const Mesh&, std::ostream&)>
+void write_mesh(const Shape& shape, std::ostream& stream) {
+  write(shape.mesh, stream);
+}
+
+constexpr std::array<ShapeFormat, 6> kShapeFormats{{{".glb", write_mesh<write_glb>},
+                                                    {".gltf", write_mesh<write_gltf>},
+                                                    {".obj", write_mesh<write_obj>},
+                                                    {".ply", write_mesh<write_ply>},
+                                                    {".stl", write_mesh<write_stl>},
+                                                    {".vdb", write_field}}};
+
+std::string lower_extension(const fs::path& file) {
+  std::string extension = file.extension().string();
+  for (char& character : extension) {
+    if (character >= 'A' && character <= 'Z') character += 'a' - 'A';
+  }
+  return extension;
+}
+
+const ShapeFormat& format_of(const fs::path& file) {
+  const std::string extension = lower_extension(file);
+  std::string known;
+  for (const ShapeFormat& format : kShapeFormats) {
+    if (format.extension == extension) return format;
+    known += (known.empty() ? "" : ", ") + std::string(format.extension);
+  }
+  throw Error(ErrorCode::usage,
+              extension.empty() ? "the output " + file.string() + " has no extension"
+                                : "unknown extension " + extension + " of " + file.string(),
+              "Use one of " + known + ".");
+}
+
+void check_extension(const fs::path& file, std::string_view what, std::string_view extension) {
+  if (lower_extension(file) == extension) return;
+  throw Error(ErrorCode::usage,
+              std::string(what) + " cannot be written to " + file.string() + ": not a " +
+                  std::string(extension) + " file",
+              "Name a " + std::string(extension) + " file.");
+}
+
+bool to_standard_output(const std::optional<fs::path>& file) { return file == kStandardOutput; }
+
+std::vector<fs::path> named_files(const OutputFiles& files) {
+  std::vector<fs::path> named = files.shapes;
+  if (files.kernels) named.push_back(*files.kernels);
+  if (files.field) named.push_back(*files.field);
+  if (files.report && !to_standard_output(files.report)) named.push_back(*files.report);
+  return named;
+}
+
+void write_to_standard_output(const std::string& text) {
+  FileStream stream(STDOUT_FILENO, "standard output");
+  stream << text << std::flush;
+}
+
+}  // namespace
+
+void check_outputs(const OutputFiles& files, const fs::path& input) {
+  for (const fs::path& shape : files.shapes) format_of(shape);
+  if (files.kernels) check_extension(*files.kernels, "the kernels", ".ply");
+  if (files.field) check_extension(*files.field, "the field", ".vdb");
+  if (files.report && !to_standard_output(files.report)) {
+    check_extension(*files.report, "the report", ".json");
+  }
+
+  std::map<fs::path, fs::path> name_of_destination;
+  std::error_code unreadable;
+  const fs::path real_input = fs::weakly_canonical(input, unreadable);
+  for (const fs::path& file : named_files(files)) {
+    const fs::path destination = resolve_destination(file);
+    if (destination == real_input) {
+      throw Error(ErrorCode::usage, "the output " + file.string() + " is the input itself",
+                  "Name another file.");
+    }
+    const auto [first, is_new] = name_of_destination.emplace(destination, file);
+    if (!is_new) {
+      throw Error(
+          ErrorCode::usage,
+          "the outputs " + first->second.string() + " and " + file.string() + " are the same file",
+          "Name each output differently.");
+    }
+  }
+}
+
+void write_outputs(const OutputFiles& files, const Shape& shape, const RunDescription& run) {
+  Transaction transaction;
+  for (const fs::path& file : files.shapes) {
+    const ShapeFormat& format = format_of(file);
+    transaction.write(file, [&](std::ostream& stream) { format.write(shape, stream); });
+  }
+  if (files.kernels) {
+    transaction.write(*files.kernels, [&](std::ostream& stream) {
+      write_kernels(shape.kernels, shape.isotropic_density, stream);
+    });
+  }
+  if (files.field) {
+    transaction.write(*files.field, [&](std::ostream& stream) { write_field(shape, stream); });
+  }
+  if (files.report) {
+    const std::string report = report_json(shape.report, run);
+    if (to_standard_output(files.report)) {
+      write_to_standard_output(report);
+    } else {
+      transaction.write(*files.report, [&](std::ostream& stream) { stream << report; });
+    }
+  }
+  transaction.commit();
+}
+
+}  // namespace leafhull

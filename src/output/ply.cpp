@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cstdint>
+
+#include "leafhull/version.h"
+#include "output/binary_record.h"
+#include "output/mesh_vertex.h"
+#include "output/writers.h"
+
+namespace leafhull {
+
+void write_ply(const Mesh& mesh, std::ostream& stream) {
+  const bool far_out = mesh.origin != Vec3d{};
+  const char* const real = far_out ? "double" : "float";
+  stream << "ply\nformat binary_little_endian 1.0\n"
+         << "comment leafhull " << kVersion << "\n"
+         << "element vertex " << mesh.positions.size() << "\n";
+  for (const char axis : {'x', 'y', 'z'}) stream << "property " << real << " " << axis << "\n";
+  for (const char axis : {'x', 'y', 'z'}) stream << "property float n" << axis << "\n";
+  stream << "element face " << mesh.triangles.size() << "\n"
+         << "property list uchar uint vertex_indices\nend_header\n";
+
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+    if (far_out) {
+      write_record(stream, world_position(mesh, i), unit_normal(mesh, i));
+    } else {
+      write_record(stream, mesh.positions[i], unit_normal(mesh, i));
+    }
+  }
+  for (const auto& triangle : mesh.triangles) write_record(stream, std::uint8_t{3}, triangle);
+}
+
+}  // namespace leafhull

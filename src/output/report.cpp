@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <variant>
+#include <vector>
+
+#include "leafhull/options.h"
+#include "leafhull/output.h"
+#include "leafhull/version.h"
+
+namespace leafhull {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string to_key(std::string_view name) {
+  std::string key(name);
+  std::ranges::replace_if(
+      key, [](char character) { return character == '-' || character == ' '; }, '_');
+  return key;
+}
+
+Json to_json_value(const TextureEllipse& ellipse) {
+  return {ellipse.centre.x, ellipse.centre.y, ellipse.a.x, ellipse.a.y, ellipse.b.x, ellipse.b.y};
+}
+
+template <class Value>
+Json to_json_value(const Value& value) {
+  if constexpr (std::is_enum_v<Value>) {
+    return name(value);
+  } else {
+    return value;
+  }
+}
+
+template <class Value>
+Json to_json_value(const std::optional<Value>& value) {
+  return value ? to_json_value(*value) : Json();
+}
+
+/// Every option by name, the ones that an extraction derives as it came to use them.
+Json parameters(const Report& report) {
+  Json parameters;
+  for (const OptionRow& row : option_table()) {
+    parameters[to_key(row.name)] =
+        std::visit([&](auto member) { return to_json_value(report.options.*member); }, row.member);
+  }
+  parameters["threshold"] = report.threshold;
+  parameters["threshold_percent"] = to_json_value(report.options.threshold_percent);
+  parameters["coverage"] = to_json_value(report.options.coverage);
+  parameters["radius_max_model"] = report.radius_max_model;
+  parameters["resolution"] = report.resolution;
+  parameters["voxel_size"] = report.voxel_size;
+  return parameters;
+}
+
+Json counts(const Counts& counts) {
+  return {{"leaves", counts.leaves},
+          {"leaf_vertices", counts.leaf_vertices},
+          {"dropped_leaves", counts.dropped_leaves},
+          {"split_components", counts.split_components},
+          {"evaluated_voxels", counts.evaluated_voxels},
+          {"evaluated_pairs", counts.evaluated_pairs},
+          {"mesh_vertices", counts.mesh_vertices},
+          {"mesh_triangles", counts.mesh_triangles},
+          {"components", counts.components},
+          {"dropped_components", counts.dropped_components}};
+}
+
+Json density(const DensityStatistics& density) {
+  return {{"mean", density.mean},
+          {"variance", density.variance},
+          {"p1", density.p1},
+          {"p2", density.p2}};
+}
+
+Json metrics(const Metrics& metrics) {
+  return {{"dilated_voxels", metrics.dilated_voxels},
+          {"inside_voxels", metrics.inside_voxels},
+          {"on_voxels", metrics.on_voxels},
+          {"off_site_exact", metrics.off_site_exact},
+          {"off_site_sampled", metrics.off_site_sampled}};
+}
+
+Json seconds(const std::vector<StageTime>& times) {
+  Json seconds = Json::object();
+  for (const StageTime& time : times) {
+    const std::string key = to_key(time.stage);
+    seconds[key] = seconds.value(key, 0.0) + time.seconds;  // a stage may run more than once
+  }
+  return seconds;
+}
+
+}  // namespace
+
+std::string report_json(const Report& report, const RunDescription& run) {
+  const Json json = {{"schema", "leafhull-report/1"},
+                     {"version", kVersion},
+                     {"input", run.input},
+                     {"command", run.command},
+                     {"parameters", parameters(report)},
+                     {"device", report.device},
+                     {"counts", counts(report.counts)},
+                     {"density", density(report.density)},
+                     {"metrics", metrics(report.metrics)},
+                     {"seconds", seconds(report.seconds)},
+                     {"peak_memory_bytes", report.peak_memory_bytes},
+                     {"warnings", report.warnings}};
+  // A path may hold bytes that are no UTF-8; JSON may not.
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace leafhull

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "output/transaction.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <set>
+#include <utility>
+
+#include "output/destination.h"
+#include "output/file_stream.h"
+#include "output/write_error.h"
+
+namespace leafhull {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool exchange(const char* a, const char* b) {
+  return ::renameat2(AT_FDCWD, a, AT_FDCWD, b, RENAME_EXCHANGE) == 0;
+}
+
+/// A rename survives a power cut only once its folder is on the disk.
+void sync_folder(const fs::path& folder) {
+  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) return;  // a folder may be writable and yet not readable
+  const int reason = ::fsync(descriptor) == 0 ? 0 : errno;
+  ::close(descriptor);
+  if (reason != 0 && reason != EINVAL) throw write_error(folder, reason);
+}
+
+}  // namespace
+
+void Transaction::write(const fs::path& name, const std::function<void(std::ostream&)>& writer) {
+  const fs::path destination = resolve_destination(name);
+  TemporaryFile file(destination);
+  file.copy_permissions(destination);
+  FileStream stream(file.descriptor(), name);
+  writer(stream);
+  stream.flush();
+  file.finish(name);
+  entries_.push_back({destination, std::move(file)});
+}
+
+void Transaction::commit() {
+  const UninterruptedSection section;
+  try {
+    std::set<fs::path> folders;
+    for (Entry& entry : entries_) {
+      entry.put_in_place();
+      folders.insert(entry.destination.parent_path());
+    }
+    for (const fs::path& folder : folders) sync_folder(folder);
+  } catch (...) {
+    for (Entry& entry : entries_) entry.take_back();
+    throw;
+  }
+  entries_.clear();  // with the files that were replaced
+}
+
+void Transaction::Entry::put_in_place() {
+  const bool exists = ::access(destination.c_str(), F_OK) == 0;
+  if (exists && exchange(file.path(), destination.c_str())) {
+    placement = Placement::exchanged;
+    return;
+  }
+  if (std::rename(file.path(), destination.c_str()) != 0) throw write_error(destination, errno);
+  placement = exists ? Placement::overwritten : Placement::created;
+}
+
+void Transaction::Entry::take_back() noexcept {
+  if (placement == Placement::exchanged) exchange(file.path(), destination.c_str());
+  if (placement == Placement::created) std::rename(destination.c_str(), file.path());
+  if (placement != Placement::overwritten) placement = Placement::pending;
+}
+
+}  // namespace leafhull

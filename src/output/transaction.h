@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <ostream>
+#include <vector>
+
+#include "output/temporary_file.h"
+
+namespace leafhull {
+
+/// Several files that appear together or not at all: each is written under a temporary name beside
+/// its destination, and `commit` renames them. Without a commit nothing remains.
+class Transaction {
+ public:
+  /// Lets `writer` fill what will become `name`. A symbolic link stays and its target is replaced;
+  /// permissions of an existing file are kept where possible.
+  /// @throws Error output, and whatever `writer` throws.
+  void write(const std::filesystem::path& name, const std::function<void(std::ostream&)>& writer);
+
+  /// Puts every file in place. Should one fail, those before it are put back, except where the
+  /// file system cannot exchange two names.
+  /// @throws Error output.
+  void commit();
+
+ private:
+  enum class Placement { pending, created, exchanged, overwritten };
+
+  struct Entry {
+    std::filesystem::path destination;
+    TemporaryFile file;
+    Placement placement = Placement::pending;
+
+    void put_in_place();
+    void take_back() noexcept;
+  };
+
+  std::vector<Entry> entries_;
+};
+
+}  // namespace leafhull

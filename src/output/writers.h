@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <openvdb/openvdb.h>
+
+#include <ostream>
+#include <span>
+
+#include "leafhull/shape.h"
+
+namespace leafhull {
+
+// Each writes one whole file. What the stream throws passes through; a mesh that its format cannot
+// hold is an Error output.
+
+/// Binary glTF 2.0: one node, moved to Mesh::origin, with one single-sided leaf-green material.
+void write_glb(const Mesh& mesh, std::ostream& stream);
+
+/// The same scene as JSON, its buffer embedded as a data URI: one file, a third larger than a GLB.
+void write_gltf(const Mesh& mesh, std::ostream& stream);
+
+/// Wavefront OBJ, `v`, `vn` and `f a//a`; the shortest digits that give the same number back.
+void write_obj(const Mesh& mesh, std::ostream& stream);
+
+/// Binary little-endian PLY; positions are `double` where Mesh::origin is not zero, else `float`.
+void write_ply(const Mesh& mesh, std::ostream& stream);
+
+/// Binary STL; positions are rounded to `float`, far from the origin too.
+void write_stl(const Mesh& mesh, std::ostream& stream);
+
+/// An OpenVDB file with this one grid: the same grid gives the same bytes.
+void write_vdb(const openvdb::FloatGrid::ConstPtr& grid, std::ostream& stream);
+
+/// One binary little-endian PLY vertex per kernel, `density` holding N_iso(c_j). SPEC: 7.
+void write_kernels(std::span<const Kernel> kernels, std::span<const float> isotropic_density,
+                   std::ostream& stream);
+
+}  // namespace leafhull

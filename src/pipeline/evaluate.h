@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// Carries lists from the density room to the device and results back.
+#pragma once
+
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "density/band.h"
+#include "density/field.h"
+#include "density/kernel_hash.h"
+#include "device/evaluator.h"
+#include "leafhull/shape.h"
+
+namespace leafhull {
+
+/// A kernel set on a lattice, ready to be evaluated. `kernels` must outlive it.
+class DensityFunction {
+ public:
+  DensityFunction(Device& device, std::span<const Kernel> kernels, const Lattice& lattice,
+                  int falloff)
+      : hash_(kernels, lattice), evaluator_(device, kernels, lattice, falloff), falloff_(falloff) {}
+
+  const KernelHash& hash() const { return hash_; }
+
+  /// N at points given in voxels from the lattice's anchor.
+  std::vector<float> at(std::span<const Vec3d> points);
+
+  /// N interpolated trilinearly from the lattice at points given in voxels from its anchor: step 2 of
+  /// the paper's Figure 8.
+  std::vector<float> interpolated_at(std::span<const Vec3d> points);
+
+  struct Sampled {
+    Field field;
+    std::uint64_t pairs = 0;  ///< kernel-sample pairs evaluated
+  };
+  /// N where the surface N = threshold may be. `advance` is told the share that is done.
+  Sampled sample_band(const BandOptions& options, double threshold,
+                      const std::function<void(double)>& advance);
+
+  /// Moves points onto N = threshold within their cells, in at most `steps` steps, and returns the
+  /// outward unit normals there, zero where the gradient vanishes.
+  std::vector<Vec3f> snap(std::span<Vec3f> points, double threshold, int steps);
+
+ private:
+  KernelHash hash_;
+  Evaluator evaluator_;
+  int falloff_;
+};
+
+}  // namespace leafhull

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pipeline/memory.h"
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <limits>
+#include <string>
+
+#include "density/band.h"
+#include "leafhull/error.h"
+
+namespace leafhull {
+namespace {
+
+// Measured at 256 to 1024 voxels: samples, the grid, its mesher's scratch and the mesh.
+constexpr double kBytesPerVoxel = 24;
+constexpr double kCoarseResolution = 64;
+
+std::uint64_t meminfo_available() {
+  std::ifstream meminfo("/proc/meminfo");
+  for (std::string line; std::getline(meminfo, line);) {
+    unsigned long long kib = 0;
+    if (std::sscanf(line.c_str(), "MemAvailable: %llu kB", &kib) == 1) return kib * 1024;
+  }
+  return std::numeric_limits<std::uint64_t>::max();
+}
+
+/// What the control group (version 2) leaves; no limit where there is none.
+std::uint64_t cgroup_available() {
+  std::ifstream limit("/sys/fs/cgroup/memory.max"), used("/sys/fs/cgroup/memory.current");
+  std::uint64_t max = 0, current = 0;
+  if (!(limit >> max) || !(used >> current)) return std::numeric_limits<std::uint64_t>::max();
+  return max - std::min(max, current);
+}
+
+std::uint64_t address_space_available() {
+  rlimit limit{};
+  std::uint64_t pages = 0;
+  if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY ||
+      !(std::ifstream("/proc/self/statm") >> pages)) {
+    return std::numeric_limits<std::uint64_t>::max();
+  }
+  const std::uint64_t used = pages * 4096;
+  return limit.rlim_cur - std::min<std::uint64_t>(limit.rlim_cur, used);
+}
+
+/// Samples that a lattice of voxel size `h` over the grown box holds.
+double dense_samples(const Box& bounds, double radius_max, double h) {
+  const Vec3d size = bounds.size() + Vec3d(2 * radius_max, 2 * radius_max, 2 * radius_max);
+  const auto along = [&](double length) { return length / h + kRootEdge; };
+  return along(size.x) * along(size.y) * along(size.z);
+}
+
+double band_samples(std::span<const Kernel> kernels, const Box& bounds, double h,
+                    const Report& report) {
+  const KernelHash hash(kernels, Lattice::near(bounds.low, h));
+  double bricks = 0;
+  find_band(hash, {report.threshold, report.options.falloff, 1, false},
+            [&](const BrickList& list, double) { bricks += static_cast<double>(list.size()); });
+  return bricks * kBrickSamples;
+}
+
+}  // namespace
+
+std::uint64_t available_memory() {
+  return std::min({meminfo_available(), cgroup_available(), address_space_available()});
+}
+
+void check_memory(std::span<const Kernel> kernels, const Box& bounds, const Report& report,
+                  std::uint64_t available) {
+  const auto fits = [&](double samples) {
+    return samples * kBytesPerVoxel <= static_cast<double>(available);
+  };
+  const double dense = dense_samples(bounds, report.radius_max_model, report.voxel_size);
+  if (fits(dense)) return;
+
+  const double finer =
+      report.resolution / kCoarseResolution;  // > 1, or the coarse lattice would not fit
+  const double power = report.options.dense ? 3 : 2;
+  const double coarse =
+      report.options.dense
+          ? dense / std::pow(finer, power)
+          : band_samples(kernels, bounds, report.voxel_size * finer, report);
+  const double needed = coarse * std::pow(finer, power) * kBytesPerVoxel;
+  if (needed <= static_cast<double>(available)) return;
+
+  constexpr double kGiB = 1 << 30;
+  const double largest =
+      report.resolution * std::pow(static_cast<double>(available) / needed, 1 / power);
+  char text[200];
+  std::snprintf(text, sizeof text,
+                "a resolution of %.0f voxels needs about %.3g GiB, and %.3g GiB are available",
+                static_cast<double>(report.resolution), needed / kGiB,
+                static_cast<double>(available) / kGiB);
+  char remedy[160];
+  std::snprintf(remedy, sizeof remedy,
+                "The largest resolution that fits here is about %.0f (--resolution %.0f).",
+                std::floor(largest), std::floor(largest));
+  throw Error(ErrorCode::usage, text, remedy);
+}
+
+}  // namespace leafhull

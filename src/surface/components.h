@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+#include "leafhull/shape.h"
+
+namespace leafhull {
+
+struct ComponentCount {
+  std::uint64_t kept = 0, dropped = 0;
+};
+
+/// Drops the connected components of a closed mesh whose enclosed volume is below `smallest` times the
+/// largest one's; the order of what stays is kept. A hollow inside another component is a component
+/// of its own, measured by the volume it takes away.
+ComponentCount drop_small_components(Mesh& mesh, double smallest);
+
+}  // namespace leafhull

@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+
+#include "checks.h"
+
+namespace recount {
+namespace {
+
+double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+/// How far the axes u, v, n are from a right-handed orthonormal frame.
+double frame_error(const Point& u, const Point& v, const Point& n) {
+  double error = std::max({std::abs(dot(u, v)), std::abs(dot(v, n)), std::abs(dot(n, u))});
+  for (const Point& axis : {u, v, n}) error = std::max(error, std::abs(dot(axis, axis) - 1));
+  const Point cross{n[1] * u[2] - n[2] * u[1], n[2] * u[0] - n[0] * u[2],
+                    n[0] * u[1] - n[1] * u[0]};
+  return std::max(error, std::abs(dot(cross, v) - 1));
+}
+
+void check_frames(const Extraction& extraction, Table& table) {
+  const Ply& ply = extraction.kernels;
+  const auto u = ply.points("ux", "uy", "uz"), v = ply.points("vx", "vy", "vz"),
+             n = ply.points("nx", "ny", "nz");
+  double worst = 0;
+  for (std::size_t i = 0; i < ply.vertex_count; ++i) {
+    worst = std::max(worst, frame_error(u[i], v[i], n[i]));
+  }
+  table.require("frame error, largest", worst, 0, 1e-5);
+}
+
+/// SPEC: 4 and 5, radius units and presets.
+void check_lengths(const Extraction& extraction, Table& table) {
+  double longest = 0;
+  for (const char* axis : {"x", "y", "z"}) {
+    const auto& values = extraction.kernels.property(axis);
+    const auto [low, high] = std::minmax_element(values.begin(), values.end());
+    longest = std::max(longest, *high - *low);
+  }
+  const double radius = extraction.number("radius_max_model");
+  const std::string unit = extraction.word("radius_unit");
+  if (unit != "leaf") {
+    const double expected =
+        extraction.number("radius_max") * (unit == "crown" ? longest / 64 : 1.0);
+    table.compare_near("radius_max_model", radius, expected, 1e-6 * expected);
+  }
+  const double cells = (longest + 2 * radius) / extraction.number("voxel_size");
+  table.compare_near("resolution", extraction.number("resolution"), cells, 0.5);
+}
+
+std::vector<double> isotropic_density(const Extraction& extraction) {
+  const auto centres = extraction.kernels.points("x", "y", "z");
+  const double radius = extraction.number("radius_max_model");
+  const int falloff = extraction.parameter("falloff");
+  std::vector<Kernel> kernels;
+  for (const Point& c : centres) {
+    kernels.push_back(
+        make_kernel(c, {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, {radius, radius, radius}));
+  }
+  std::vector<double> densities;
+  if (extraction.word("density") == "grid") {
+    const Lattice lattice = sum_on_lattice(kernels, falloff, extraction.number("voxel_size"));
+    for (const Point& c : centres) densities.push_back(lattice.trilinear(c));
+  } else {
+    for (const Density& density : sum_at(centres, kernels, falloff)) {
+      densities.push_back(density.value);
+    }
+  }
+  return densities;
+}
+
+struct Band {
+  double p1, p2;
+
+  /// How much of the leaf's own radius Eq. (8) takes, from 0 (R_max) to 1 (R).
+  double weight(double density) const {
+    if (density <= p1) return 0;
+    return density >= p2 ? 1 : (density - p1) / (p2 - p1);
+  }
+};
+
+/// Eqs. (9), (10). The tolerances follow from each N_iso being known to kRounding.
+Band check_statistics(const Extraction& extraction, const std::vector<double>& densities,
+                      Table& table) {
+  const auto& stored = extraction.kernels.property("density");
+  double worst = 0, mean = 0, variance = 0;
+  for (std::size_t i = 0; i < densities.size(); ++i) {
+    worst = std::max(worst, std::abs(stored[i] - densities[i]) / densities[i]);
+    mean += densities[i] / double(densities.size());
+  }
+  for (double density : densities) {
+    variance += (density - mean) * (density - mean) / double(densities.size());
+  }
+  const double mean_error = kRounding * mean;
+  const double spread_error = kRounding * std::sqrt(mean * mean + variance);
+  const double variance_error = spread_error * (2 * std::sqrt(variance) + spread_error);
+  const bool by_variance = extraction.word("spread") == "variance";
+  const double spread = by_variance ? variance : std::sqrt(variance);
+  const double a1 = extraction.number("band_low"), a2 = extraction.number("band_high");
+  const auto band_error = [&](double a) {
+    return mean_error + std::abs(a) * (by_variance ? variance_error : spread_error);
+  };
+  const auto& report = extraction.report.at("density");
+  table.require("N_iso, largest relative error", worst, 0, kRounding);
+  table.compare_near("density mean", report.at("mean"), mean, mean_error);
+  table.compare_near("density variance", report.at("variance"), variance, variance_error);
+  table.compare_near("p1", report.at("p1"), mean + a1 * spread, band_error(a1));
+  table.compare_near("p2", report.at("p2"), mean + a2 * spread, band_error(a2));
+  const auto& percent = extraction.parameter("threshold_percent");
+  if (!percent.is_null()) {
+    const double threshold = percent.get<double>() / 100 * mean;
+    table.compare_near("threshold by percent", extraction.number("threshold"), threshold,
+                       kRounding * threshold);
+  }
+  return {mean + a1 * spread, mean + a2 * spread};
+}
+
+/// The radii of each kernel against its method. Rounding of N_iso makes Eq. (8)'s weight a range.
+class RadiusCheck {
+ public:
+  RadiusCheck(const Extraction& extraction, Band band, const std::vector<double>& densities)
+      : method_(extraction.word("method")),
+        band_(band),
+        densities_(densities),
+        radius_max_(extraction.number("radius_max_model")),
+        flatness_(method_ == "isotropic" ? 1 : extraction.number("flatness")),
+        ru_(extraction.kernels.property("ru")),
+        rv_(extraction.kernels.property("rv")),
+        rn_(extraction.kernels.property("rn")) {}
+
+  /// Eq. (8) scales all axes alike, so R_u >= R_v and Eq. (7) leave their trace in the radii used.
+  std::size_t count_off_method() const {
+    return count([&](std::size_t i) {
+      const auto [low, high] = weights(i);
+      if (high == 0) {
+        return is_radius_max(ru_[i]) && is_radius_max(rv_[i]) && is_radius_max(rn_[i]);
+      }
+      return ru_[i] >= rv_[i] - rounding() &&
+             is_between(rn_[i], normal_radius(rv_[i], low), normal_radius(rv_[i], high));
+    });
+  }
+
+  /// Eq. (8) itself, from the leaves' own radii.
+  std::size_t count_off_equation_8(const Ply& leaf_kernels) const {
+    const auto &leaf_u = leaf_kernels.property("ru"), &leaf_v = leaf_kernels.property("rv");
+    return count([&](std::size_t i) {
+      const auto [low, high] = weights(i);
+      return is_between(ru_[i], used_radius(leaf_u[i], low), used_radius(leaf_u[i], high)) &&
+             is_between(rv_[i], used_radius(leaf_v[i], low), used_radius(leaf_v[i], high));
+    });
+  }
+
+ private:
+  template <class Holds>
+  std::size_t count(Holds holds) const {
+    std::size_t exceptions = 0;
+    for (std::size_t i = 0; i < densities_.size(); ++i) exceptions += !holds(i);
+    return exceptions;
+  }
+
+  std::pair<double, double> weights(std::size_t i) const {
+    if (method_ == "isotropic") return {0, 0};
+    if (method_ == "uncontrolled") return {1, 1};
+    return {band_.weight(densities_[i] * (1 - kRounding)),
+            band_.weight(densities_[i] * (1 + kRounding))};
+  }
+
+  double used_radius(double leaf_radius, double weight) const {
+    return at_least_smallest(radius_max_ + (leaf_radius - radius_max_) * weight);
+  }
+  /// Eq. (7) carried through Eq. (8): r_n - b = lambda (r_v - b), b being the part of R_max in
+  /// both.
+  double normal_radius(double minor_radius, double weight) const {
+    const double shared = radius_max_ * (1 - weight);
+    return at_least_smallest(shared + flatness_ * (minor_radius - shared));
+  }
+  double at_least_smallest(double radius) const { return std::max(radius, 1e-3 * radius_max_); }
+
+  double rounding() const { return kRounding * radius_max_; }
+  bool is_radius_max(double radius) const { return is_between(radius, radius_max_, radius_max_); }
+  bool is_between(double radius, double a, double b) const {
+    return radius >= std::min(a, b) - rounding() && radius <= std::max(a, b) + rounding();
+  }
+
+  std::string method_;
+  Band band_;
+  const std::vector<double>& densities_;
+  double radius_max_, flatness_;
+  const std::vector<double>&ru_, &rv_, &rn_;
+};
+
+void check_radii(const Extraction& extraction, Band band, const std::vector<double>& densities,
+                 Table& table) {
+  const RadiusCheck check(extraction, band, densities);
+  table.require("kernels off Eqs. 7 and 8", double(check.count_off_method()), 0, 0);
+  if (extraction.leaf_kernels) {
+    table.require("kernels off Eq. 8 by leaf radii",
+                  double(check.count_off_equation_8(*extraction.leaf_kernels)), 0, 0);
+  }
+}
+
+}  // namespace
+
+void check_kernels(const Extraction& extraction, Table& table) {
+  const double count = double(extraction.kernels.vertex_count);
+  table.compare("leaf vertices", extraction.report.at("counts").at("leaf_vertices"), count, count,
+                count);
+  check_frames(extraction, table);
+  check_lengths(extraction, table);
+  const std::vector<double> densities = isotropic_density(extraction);
+  const Band band = check_statistics(extraction, densities, table);
+  check_radii(extraction, band, densities, table);
+}
+
+}  // namespace recount

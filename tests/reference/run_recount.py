@@ -1,0 +1,64 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Extracts a tree with every method and style and has each report recounted by brute force:
+run_recount.py LEAFHULL RECOUNT TREE."""
+
+import pathlib
+import subprocess
+import sys
+import tempfile
+import time
+
+SKIPPED = 77
+DRAFT = ["--preset", "draft"]
+CASES = {
+    "painterly, standard": ["--preset", "standard"],
+    "painterly, draft": DRAFT,
+    "thin": ["--style", "thin", *DRAFT],
+    "fat": ["--style", "fat", *DRAFT],
+    "luft-deussen": ["--style", "luft-deussen", *DRAFT],
+    "isotropic": ["--method", "isotropic", *DRAFT],
+    "threshold": ["--threshold", "3", *DRAFT],
+    "threshold percent": ["--threshold", "20%", *DRAFT],
+    "falloff 1": ["--falloff", "1", *DRAFT],
+    "falloff 3": ["--falloff", "3", *DRAFT],
+    "variance": ["--spread", "variance", *DRAFT],
+    "density grid": ["--density", "grid", *DRAFT],
+    "dense": ["--dense", *DRAFT],
+}
+
+
+def extract(leafhull, tree, options, folder):
+    folder.mkdir()
+    files = [folder / "kernels.ply", folder / "report.json", folder / "shape.ply"]
+    subprocess.run([leafhull, "extract", tree, "-q", "-o", files[2], "--save-kernels", files[0],
+                    "--report", files[1], *options], check=True)
+    return files
+
+
+def agrees(recount, name, files, extra=()):
+    start = time.perf_counter()
+    result = subprocess.run([recount, *files, *extra], stdout=subprocess.PIPE, text=True)
+    verdict = "agrees" if result.returncode == 0 else "DIFFERS"
+    print(f"{name}: {verdict} ({time.perf_counter() - start:.1f} s)\n{result.stdout}", flush=True)
+    return result.returncode == 0
+
+
+def main(leafhull, recount, tree):
+    if not pathlib.Path(tree).exists():
+        print(f"SKIPPED: no {tree}; the recount of this tree was NOT run")
+        return SKIPPED
+    with tempfile.TemporaryDirectory() as root:
+        root = pathlib.Path(root)
+        uncontrolled = extract(leafhull, tree, ["--method", "uncontrolled", *DRAFT],
+                               root / "uncontrolled")
+        failed = [] if agrees(recount, "uncontrolled", uncontrolled) else ["uncontrolled"]
+        for name, options in CASES.items():
+            files = extract(leafhull, tree, options, root / name)
+            if not agrees(recount, name, files, ["--leaf-radii", uncontrolled[0]]):
+                failed.append(name)
+    print(f"differ: {', '.join(failed)}" if failed else f"all {len(CASES) + 1} cases agree")
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(*sys.argv[1:]))

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "input/obj.h"
+#include "input/polygon.h"
+#include "leafhull/error.h"
+#include "leafhull/tree.h"
+#include "png.h"
+#include "temporary_folder.h"
+
+namespace leafhull::test {
+namespace {
+
+TreeModel read(const std::string& text) {
+  const auto* bytes = reinterpret_cast<const std::uint8_t*>(text.data());
+  return read_obj({bytes, text.size()}, "t.obj");
+}
+
+std::string error_of(const std::string& text) {
+  try {
+    read(text);
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::input);
+    EXPECT_FALSE(error.remedy().empty());
+    return error.what();
+  }
+  return "no error";
+}
+
+double area(const std::vector<Vec3d>& polygon) {
+  double sum = 0;
+  for (const auto& [a, b, c] : triangulate(polygon)) {
+    const double twice = cross(polygon[b] - polygon[a], polygon[c] - polygon[a]).z;
+    EXPECT_GT(twice, 0);
+    sum += twice / 2;
+  }
+  return sum;
+}
+
+TEST(Polygon, CutsConcavePolygonsWhereverTheyLie) {
+  for (const Vec3d o : {Vec3d(0, 0, 0), Vec3d(-1e4, 5, 3), Vec3d(7, -1e4, 0)}) {
+    const auto at = [&](double x, double y) { return o + Vec3d(x, y, 0); };
+    EXPECT_NEAR(area({at(0, 0), at(4, 0), at(4, 4), at(2, 1), at(0, 4)}), 10, 1e-6);  // a notch
+    EXPECT_NEAR(area({at(0, 0), at(2, 1), at(4, 0), at(2, 5)}), 8, 1e-6);             // an arrow
+    EXPECT_NEAR(area({at(0, 0), at(3, 0), at(3, 1), at(1, 1), at(1, 3), at(0, 3)}), 5, 1e-6);
+  }
+}
+
+TEST(Polygon, AlwaysGivesTwoTrianglesLessThanCorners) {
+  EXPECT_EQ(triangulate(std::vector<Vec3d>(6)).size(), 4u);
+  EXPECT_EQ(triangulate(std::vector<Vec3d>{{0, 0, 0}, {1, 1, 0}, {1, 0, 0}, {0, 1, 0}}).size(), 2u);
+}
+
+TEST(Obj, NamesPartsAndMaterials) {
+  const TreeModel tree = read(
+      "o birch\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
+      "g trunk\nusemtl bark\nf 1 2 3\n"
+      "g crown\nusemtl birch leaf\nf 1 2 3 4\nusemtl bark\nf 2 3 4\n");
+  ASSERT_EQ(tree.primitives.size(), 3u);
+  ASSERT_EQ(tree.instances.size(), 3u);
+  EXPECT_EQ(tree.primitives[1].mesh_name, "crown");
+  EXPECT_EQ(tree.instances[1].node_name, "birch");
+  EXPECT_EQ(tree.materials[std::size_t(tree.primitives[1].material)].name, "birch leaf");
+  EXPECT_EQ(tree.primitives[1].triangles.size(), 2u);
+  EXPECT_EQ(tree.primitives[1].positions.size(), 4u);
+  EXPECT_EQ(tree.primitives[2].material, tree.primitives[0].material);
+}
+
+TEST(Obj, ReadsNormalsUvsAndRelativeIndices) {
+  const TreeModel tree = read(
+      "v 0 0 0\nv 1 0 0\nv 1 1 0\nvt 0 0.25\nvt 1 0\nvt 1 1\nvn 0 0 1\n"
+      "f -3/-3/-1 -2/-2/-1 -1/-1/-1\n");
+  const Primitive& p = tree.primitives[0];
+  EXPECT_EQ(p.positions, (std::vector<Vec3f>{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}));
+  EXPECT_EQ(p.uvs, (std::vector<Vec2f>{{0, 0.75f}, {1, 1}, {1, 0}}));  // v down
+  EXPECT_EQ(p.normals, std::vector<Vec3f>(3, Vec3f(0, 0, 1)));
+  EXPECT_TRUE(read("v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n").primitives[0].uvs.empty());
+}
+
+TEST(Obj, KeepsItsPrecisionFarFromTheOrigin) {
+  const TreeModel tree = read("v 10000.0001 0 0\nv 10000.0002 0 0\nv 10000 0.0003 0\nf 1 2 3\n");
+  const double origin = tree.instances[0].to_world[0][3];
+  const Primitive& p = tree.primitives[0];
+  EXPECT_NEAR(origin + p.positions[0].x, 10000.0001, 1e-9);
+  EXPECT_NEAR(double(p.positions[1].x) - p.positions[0].x, 1e-4, 1e-9);
+}
+
+TEST(Obj, ReadsMaterialLibraryAndMasks) {
+  const TemporaryFolder folder;
+  const auto write = [&](const std::string& name, const auto& content) {
+    std::ofstream(folder / name, std::ios::binary)
+        .write(reinterpret_cast<const char*>(content.data()), std::streamsize(content.size()));
+  };
+  const std::vector<std::uint8_t> color{10, 20, 30, 255}, mask{255, 255, 255, 255, 0, 0, 0, 255};
+  write("color.png", png(1, 1, color));
+  write("mask.png", png(2, 1, mask));
+  write("my tree.mtl", std::string("newmtl leaf\nKd 0.1 0.6 0.2\nmap_Kd color.png\nmap_d mask.png\n"
+                                   "newmtl glass\nKd 1 1 1\nd 0.25\n"));
+  write("tree.OBJ", std::string("mtllib my tree.mtl\nmtllib lost.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\n"
+                                "usemtl leaf\nf 1 2 3\nusemtl glass\nf 1 2 3\n"));
+  const TreeModel tree = read_tree(folder / "tree.OBJ");
+  ASSERT_EQ(tree.warnings.size(), 1u);
+  EXPECT_NE(tree.warnings[0].find("lost.mtl"), std::string::npos);
+  const Material& leaf = tree.materials[0];
+  EXPECT_EQ(leaf.alpha_mode, AlphaMode::mask);
+  EXPECT_FLOAT_EQ(leaf.base_color[1], 0.6f);
+  ASSERT_EQ(leaf.base_color_image, 0);
+  EXPECT_EQ(tree.images[0].rgba, (std::vector<std::uint8_t>{10, 20, 30, 255, 10, 20, 30, 0}));
+  EXPECT_EQ(tree.materials[1].alpha_mode, AlphaMode::blend);
+  EXPECT_FLOAT_EQ(tree.materials[1].base_color[3], 0.25f);
+}
+
+TEST(Obj, RefusesBadFiles) {
+  const std::string vertices = "v 0 0 0\nv 1 0 0\nv 1 1 0\n";
+  EXPECT_NE(error_of(vertices + "f 1 2 4\n").find("t.obj: "), std::string::npos);
+  EXPECT_NE(error_of(vertices + "f 1 2 4\n").find("past the vertices"), std::string::npos);
+  EXPECT_NE(error_of(vertices + "f 1/9 2/9 3/9\n").find("past the vertices"), std::string::npos);
+  EXPECT_NE(error_of(vertices + "f 1 2 -4\n").find("index -4"), std::string::npos);
+  EXPECT_NE(error_of(vertices + "f 0 1 2\n").find("face 1: index 0"), std::string::npos);
+  EXPECT_NE(error_of("v 0 0 0\nv nan 0 0\n").find("line 2"), std::string::npos);
+  EXPECT_NE(error_of("v 0 0 1e60\n" + vertices + "f 1 2 3\n").find("vertex 1"), std::string::npos);
+  EXPECT_NE(error_of(vertices).find("holds no faces"), std::string::npos);
+  EXPECT_NE(error_of("hello").find("holds no faces"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace leafhull::test

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "leaves_models.h"
+
+namespace leafhull {
+namespace {
+
+using test::add_quad;
+using test::card;
+using test::tree_of;
+
+using Random = std::mt19937;
+
+Vec3f random_point(Random& random, float extent) {
+  std::uniform_real_distribution<float> any(-extent, extent);
+  const float x = any(random);
+  const float y = any(random);
+  return {x, y, any(random)};
+}
+
+/// Slanted cards with normals and texture coordinates, some of them crumpled enough to be split.
+Primitive crown(Random& random, int leaves) {
+  Primitive primitive;
+  for (int i = 0; i < leaves; ++i) {
+    const Vec3f corner = random_point(random, 10);
+    const Vec3f a = random_point(random, 1);
+    const Vec3f b = random_point(random, 1);
+    const Vec3f bend = random_point(random, i % 3 == 0 ? 1.f : 0.01f);
+    add_quad(primitive, {corner, corner + a, corner + a + b + bend, corner + b});
+    for (int n = 0; n < 4; ++n) primitive.normals.push_back(random_point(random, 1));
+    primitive.uvs.insert(primitive.uvs.end(), {{0, 1}, {1, 1}, {1, 0}, {0, 0}});
+  }
+  return primitive;
+}
+
+TreeModel crowns(Random& random) {
+  TreeModel tree = tree_of({crown(random, 40), crown(random, 40), crown(random, 40)});
+  tree.instances.push_back({1, "again"});
+  tree.instances.back().to_world[0][1] = 0.5;
+  return test::masked(std::move(tree),
+                      test::alpha_image(32, test::opaque_inside(0.5, 0.5, 0.4, 0.3)));
+}
+
+/// Every corner gets a vertex of its own.
+void split_vertices(Primitive& primitive) {
+  Primitive split;
+  split.mesh_name = primitive.mesh_name;
+  split.material = primitive.material;
+  for (const auto& triangle : primitive.triangles) {
+    const auto first = static_cast<std::uint32_t>(split.positions.size());
+    for (const std::uint32_t vertex : triangle) {
+      split.positions.push_back(primitive.positions[vertex]);
+      split.normals.push_back(primitive.normals[vertex]);
+      split.uvs.push_back(primitive.uvs[vertex]);
+    }
+    split.triangles.push_back({first, first + 1, first + 2});
+  }
+  primitive = std::move(split);
+}
+
+void shuffle_vertices(Primitive& primitive, Random& random) {
+  std::vector<std::uint32_t> place(primitive.positions.size());
+  for (std::uint32_t i = 0; i < place.size(); ++i) place[i] = i;
+  std::ranges::shuffle(place, random);
+  Primitive shuffled = primitive;
+  for (std::size_t i = 0; i < place.size(); ++i) {
+    shuffled.positions[place[i]] = primitive.positions[i];
+    shuffled.normals[place[i]] = primitive.normals[i];
+    shuffled.uvs[place[i]] = primitive.uvs[i];
+  }
+  for (auto& triangle : shuffled.triangles) {
+    for (std::uint32_t& vertex : triangle) vertex = place[vertex];
+  }
+  primitive = std::move(shuffled);
+}
+
+void shuffle_triangles(Primitive& primitive, Random& random) {
+  std::ranges::shuffle(primitive.triangles, random);
+  for (auto& triangle : primitive.triangles) {
+    std::ranges::rotate(triangle, triangle.begin() + random() % 3);
+  }
+}
+
+void reverse_primitives(TreeModel& tree) {
+  std::ranges::reverse(tree.primitives);
+  std::ranges::reverse(tree.instances);
+  for (Instance& instance : tree.instances) {
+    instance.primitive =
+        static_cast<std::uint32_t>(tree.primitives.size()) - 1 - instance.primitive;
+  }
+}
+
+/// Exactly equal, field by field.
+void expect_equal(const LeafSet& a, const LeafSet& b) {
+  EXPECT_EQ(a.leaf_count, b.leaf_count);
+  EXPECT_EQ(a.dropped_leaves, b.dropped_leaves);
+  EXPECT_EQ(a.split_components, b.split_components);
+  EXPECT_EQ(a.mean_radius_major, b.mean_radius_major);
+  EXPECT_EQ(a.bounds.low, b.bounds.low);
+  EXPECT_EQ(a.bounds.high, b.bounds.high);
+  ASSERT_EQ(a.vertices.size(), b.vertices.size());
+  for (std::size_t i = 0; i < a.vertices.size(); ++i) {
+    ASSERT_EQ(a.vertices[i].position, b.vertices[i].position) << i;
+    ASSERT_EQ(a.vertices[i].normal, b.vertices[i].normal) << i;
+    ASSERT_EQ(a.vertices[i].major, b.vertices[i].major) << i;
+    ASSERT_EQ(a.vertices[i].radius_major, b.vertices[i].radius_major) << i;
+    ASSERT_EQ(a.vertices[i].radius_minor, b.vertices[i].radius_minor) << i;
+    ASSERT_EQ(a.vertices[i].leaf, b.vertices[i].leaf) << i;
+  }
+}
+
+class LeafOrder : public ::testing::TestWithParam<unsigned> {};
+
+TEST_P(LeafOrder, HowTheFileStoresTheLeavesChangesNoBit) {
+  Random random(GetParam());
+  const TreeModel tree = crowns(random);
+  const LeafSet expected = find_leaves(tree, {});
+  ASSERT_GT(expected.split_components, 10u);
+  ASSERT_GT(expected.leaf_count, 160u);
+
+  TreeModel split = tree;
+  for (Primitive& primitive : split.primitives) split_vertices(primitive);
+  expect_equal(find_leaves(split, {}), expected);
+
+  TreeModel shuffled = tree;
+  for (Primitive& primitive : shuffled.primitives) {
+    shuffle_vertices(primitive, random);
+    shuffle_triangles(primitive, random);
+  }
+  expect_equal(find_leaves(shuffled, {}), expected);
+
+  TreeModel reversed = tree;
+  reverse_primitives(reversed);
+  expect_equal(find_leaves(reversed, {}), expected);
+}
+
+TEST_P(LeafOrder, OnePrimitiveOrManyIsTheSame) {
+  Random random(GetParam());
+  const Primitive whole = crown(random, 30);
+  std::vector<Primitive> parts(30);
+  for (std::size_t leaf = 0; leaf < parts.size(); ++leaf) {
+    Primitive& part = parts[leaf];
+    for (std::size_t i = 4 * leaf; i < 4 * leaf + 4; ++i) {
+      part.positions.push_back(whole.positions[i]);
+      part.normals.push_back(whole.normals[i]);
+      part.uvs.push_back(whole.uvs[i]);
+    }
+    part.triangles = {{0, 1, 2}, {0, 2, 3}};
+  }
+  expect_equal(find_leaves(tree_of(parts), {}), find_leaves(tree_of({whole}), {}));
+}
+
+INSTANTIATE_TEST_SUITE_P(Seeds, LeafOrder, ::testing::Values(1u, 2u, 3u, 4u));
+
+// Neighbouring squares of one size have corners that agree in everything but the leaf.
+TEST(LeafOrder, LeavesThatShareEqualVerticesKeepTheirNumbers) {
+  std::vector<Primitive> squares;
+  for (int i = 0; i < 4; ++i) {
+    Primitive square;
+    const float x = float(i % 2);
+    const float y = float(i / 2);
+    add_quad(square, {Vec3f{x, y, 0}, {x + 1, y, 0}, {x + 1, y + 1, 0}, {x, y + 1, 0}});
+    squares.push_back(square);
+  }
+  const LeafSet expected = find_leaves(tree_of(squares), {});
+  ASSERT_EQ(expected.vertices.size(), 16u);
+  std::vector<int> order{0, 1, 2, 3};
+  while (std::ranges::next_permutation(order).found) {
+    std::vector<Primitive> permuted;
+    for (const int i : order) permuted.push_back(squares[i]);
+    expect_equal(find_leaves(tree_of(permuted), {}), expected);
+  }
+}
+
+TEST(LeafOrder, NumbersGoByFirstAppearance) {
+  Random random(5);
+  std::uint32_t next = 0;
+  const LeafSet set = find_leaves(crowns(random), {});
+  for (const LeafVertex& vertex : set.vertices) {
+    ASSERT_LE(vertex.leaf, next);
+    next = std::max(next, vertex.leaf + 1);
+  }
+  EXPECT_EQ(next, set.leaf_count);
+}
+
+// In a box from 0 to 1 the eight corners of a cube come with x fastest and z slowest.
+TEST(LeafOrder, FollowsTheMortonCurve) {
+  Primitive corners;
+  for (int i = 7; i >= 0; --i) {
+    const auto side = [](int bit) { return bit ? 1.f : 0.f; };
+    const Vec3f p{side(i & 1), side(i & 2), side(i & 4)};
+    const auto inward = [](float x) { return x < 0.5f ? 1e-3f : -1e-3f; };
+    const auto first = static_cast<std::uint32_t>(corners.positions.size());
+    corners.positions.insert(corners.positions.end(),
+                             {p, p + Vec3f{inward(p.x), 0, 0}, p + Vec3f{0, inward(p.y), 0}});
+    corners.triangles.push_back({first, first + 1, first + 2});
+  }
+  const LeafSet set = find_leaves(tree_of({corners}), {});
+  ASSERT_EQ(set.vertices.size(), 24u);
+  for (int i = 0; i < 24; ++i) {
+    const Vec3d& p = set.vertices[i].position;
+    const int octant = (p.x > 0.5) + 2 * (p.y > 0.5) + 4 * (p.z > 0.5);
+    EXPECT_EQ(octant, i / 3);
+    EXPECT_EQ(set.vertices[i].leaf, std::uint32_t(i / 3));
+  }
+}
+
+}  // namespace
+}  // namespace leafhull

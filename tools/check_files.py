@@ -1,0 +1,63 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Checks what holds for every file: its length, its license line, its white space; and that each
+package named by cmake/dependencies.cmake is in packages.txt, where ./dev looks."""
+
+import pathlib
+import re
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+FOLDERS = (".ci", "bench", "cmake", "examples", "include", "kernels", "src", "tests", "tools")
+SOURCES = {".h", ".cpp", ".cl", ".clh", ".py", ".sh"}
+TEXTS = SOURCES | {".cmake", ".in", ".json", ".md", ".supp", ".txt", ".yml"}
+LINES_MAX = 600
+
+
+def files():
+    yield from (p for p in ROOT.iterdir() if p.is_file())
+    for folder in FOLDERS:
+        yield from (p for p in (ROOT / folder).rglob("*") if p.is_file())
+
+
+def is_script(path):
+    return path.suffix == "" and path.read_bytes()[:2] == b"#!"
+
+
+def faults_of(file):
+    source = file.suffix in SOURCES or is_script(file)
+    if not source and file.suffix not in TEXTS:
+        return
+    path = file.relative_to(ROOT)
+    lines = file.read_text(encoding="utf-8").splitlines()
+    if source and len(lines) > LINES_MAX:
+        yield f"{path}: {len(lines)} lines; split it, {LINES_MAX} is the most"
+    if source and not any("SPDX-License-Identifier: Apache-2.0" in line for line in lines[:3]):
+        yield f"{path}: no SPDX-License-Identifier in the first three lines"
+    if path.suffix != ".md":
+        for number, line in enumerate(lines, 1):
+            if line != line.rstrip():
+                yield f"{path}:{number}: white space at the end of the line"
+
+
+def unlisted_packages():
+    listed = {
+        line.split()[1]
+        for line in (ROOT / "packages.txt").read_text().splitlines()
+        if line and not line.startswith("#")
+    }
+    rows = (ROOT / "cmake/dependencies.cmake").read_text()
+    for packages in re.findall(r'^leafhull_require\(\S+ \S+ "([^"]+)"', rows, re.MULTILINE):
+        for package in sorted(set(packages.split()) - listed):
+            yield f"packages.txt: {package} is missing, which cmake/dependencies.cmake names"
+
+
+def main():
+    faults = [fault for file in sorted(files()) for fault in faults_of(file)]
+    faults += unlisted_packages()
+    print("\n".join(faults), end="\n" if faults else "")
+    return bool(faults)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

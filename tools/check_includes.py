@@ -1,0 +1,100 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Checks who includes whom: each room of src/ knows only the rooms and the third-party libraries
+of its row in ROOMS, and the public headers know nothing but the standard library."""
+
+import pathlib
+import re
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+
+# Room: the rooms it may include beside itself, and the third-party libraries it may know.
+ROOMS = {
+    "input": ((), ("tinygltf", "tinyobjloader", "json", "draco", "meshoptimizer", "stb")),
+    "leaves": ((), ("eigen", "stb")),
+    "density": ((), ("openvdb", "tbb")),
+    "device": (("density",), ("opencl",)),
+    "surface": (("density",), ("openvdb", "tbb")),
+    "output": (("density", "surface"), ("tinygltf", "openvdb", "json")),
+    "pipeline": (("input", "leaves", "density", "device", "surface", "output"), ("tbb",)),
+    "cli": ((), ("cli11", "json")),
+}
+
+# Library: how the paths of its headers begin.
+LIBRARIES = {
+    "cli11": ("CLI/",),
+    "draco": ("draco/",),
+    "eigen": ("Eigen/",),
+    "embree": ("embree3/",),
+    "json": ("nlohmann/",),
+    "meshoptimizer": ("meshoptimizer.h",),
+    "opencl": ("CL/",),
+    "openvdb": ("openvdb/",),
+    "stb": ("stb/", "stb_"),
+    "tbb": ("tbb/", "oneapi/"),
+    "tinygltf": ("tiny_gltf.h",),
+    "tinyobjloader": ("tiny_obj_loader.h",),
+}
+
+# Of POSIX, for files and signals.
+SYSTEM = ("sys/", "fcntl.h", "fnmatch.h", "poll.h", "signal.h", "unistd.h")
+
+INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]', re.MULTILINE)
+
+
+def is_standard(header):
+    return re.fullmatch(r"[a-z_0-9]+", header) is not None
+
+
+def library_of(header):
+    for name, beginnings in LIBRARIES.items():
+        if header.startswith(beginnings):
+            return name
+    return None
+
+
+def fault_in_room(room, header):
+    rooms, libraries = ROOMS[room]
+    first = header.split("/")[0]
+    if is_standard(header) or header.startswith(SYSTEM) or first == "leafhull":
+        return None
+    if first in ROOMS and "/" in header:
+        return None if first == room or first in rooms else f"{room} may not know the room {first}"
+    library = library_of(header)
+    if library:
+        return None if library in libraries else f"{room} may not know the library {library}"
+    return "neither leafhull's, nor standard, nor in this checker's tables"
+
+
+def fault_in_public(header):
+    if is_standard(header) or header.startswith("leafhull/"):
+        return None
+    return "a public header includes only the standard library and leafhull/"
+
+
+def check(path, judge):
+    for header in INCLUDE.findall(path.read_text(encoding="utf-8")):
+        fault = judge(header)
+        if fault:
+            yield f'{path.relative_to(ROOT)}: #include "{header}": {fault}'
+
+
+def main():
+    faults = []
+    for path in sorted((ROOT / "include").rglob("*.h")):
+        faults += check(path, fault_in_public)
+    for path in sorted((ROOT / "src").glob("*/**/*")):
+        if path.suffix not in {".h", ".cpp"}:
+            continue
+        room = path.relative_to(ROOT / "src").parts[0]
+        if room in ROOMS:
+            faults += check(path, lambda header: fault_in_room(room, header))
+        else:
+            faults.append(f"{path.relative_to(ROOT)}: {room} has no row in tools/check_includes.py")
+    print("\n".join(faults), end="\n" if faults else "")
+    return bool(faults)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
