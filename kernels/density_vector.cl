@@ -2,9 +2,9 @@
 // N at the samples of a brick, for CPUs: one work-item per brick, explicit vectors.
 //
 // A brick is eight sub-bricks of 4 x 4 x 4. Kernels are taken in runs of RUN: each is first tested
-// against the eight sub-bricks at once (a float8, the bound xi_min of SPEC 5) and entered in the lists
-// of those it reaches; then every sub-brick sums its list, a float16 holding 4 x 4 samples of y and z.
-// Sums go in the order of the list, so they do not depend on RUN.
+// against the eight sub-bricks at once (a float8, the bound xi_min of SPEC 5) and entered in the
+// lists of those it reaches; then every sub-brick sums its list, a float16 holding 4 x 4 samples of
+// y and z. Sums go in the order of the list, so they do not depend on RUN.
 //
 // Global size: the number of bricks; local size 1.
 #include "density.clh"
@@ -75,12 +75,12 @@ static void sum_run(const Run* run, int s, float16* n0, float16* n1, float16* n2
     const float16 u = fma((float16)(a[1]), y, fma((float16)(a[2]), z, (float16)(m[0])));
     const float16 v = fma((float16)(a[4]), y, fma((float16)(a[5]), z, (float16)(m[1])));
     const float16 n = fma((float16)(a[7]), y, fma((float16)(a[8]), z, (float16)(m[2])));
-#define ADD_SLAB(acc, x)                                                    \
-  {                                                                         \
-    const float16 pu = u + x * a[0], pv = v + x * a[3], pn = n + x * a[6];  \
-    float16 w = fma(-pu, pu, (float16)(1.0f));                              \
-    w = fmax(fma(-pn, pn, fma(-pv, pv, w)), (float16)(0.0f));               \
-    acc = ADD_POWER(acc, w);                                                \
+#define ADD_SLAB(acc, x)                                                   \
+  {                                                                        \
+    const float16 pu = u + x * a[0], pv = v + x * a[3], pn = n + x * a[6]; \
+    float16 w = fma(-pu, pu, (float16)(1.0f));                             \
+    w = fmax(fma(-pn, pn, fma(-pv, pv, w)), (float16)(0.0f));              \
+    acc = ADD_POWER(acc, w);                                               \
   }
     ADD_SLAB(acc0, -1.5f)
     ADD_SLAB(acc1, -0.5f)

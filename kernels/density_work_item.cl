@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// N at the samples of a brick, for GPUs: one work-group per brick, one work-item per pair of samples
-// half a brick apart, the brick's kernels staged in local memory TILE at a time.
+// N at the samples of a brick, for GPUs: one work-group per brick, one work-item per pair of
+// samples half a brick apart, the brick's kernels staged in local memory TILE at a time.
 //
 // Global size: WORK_ITEMS times the number of bricks; local size WORK_ITEMS.
 #include "density.clh"
@@ -15,7 +15,8 @@ kernel __attribute__((reqd_work_group_size(WORK_ITEMS, 1, 1))) void density_bric
     global const Kernel* restrict kernels, global const int4* restrict origins,
     global const uint* restrict first, global const uint* restrict list,
     global float* restrict samples, global uint* restrict pairs) {
-  local float tile[TILE][12];  // axes, then minus the centre seen from the brick's origin along them
+  local float tile[TILE]
+                  [12];  // axes, then minus the centre seen from the brick's origin along them
   const size_t brick = get_group_id(0);
   const uint item = (uint)get_local_id(0);
   const float x = (float)(item >> 6), y = (float)(item >> 3 & 7), z = (float)(item & 7);

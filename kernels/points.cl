@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // N and its gradient at scattered points, and the way of a mesh vertex onto the surface N = T.
 //
-// Points come in chunks of 16 that share a brick and its list of kernels. On a CPU a work-item takes a
-// chunk, its lanes the points (LANES 16); on a GPU a work-item takes one point (LANES 1).
+// Points come in chunks of 16 that share a brick and its list of kernels. On a CPU a work-item
+// takes a chunk, its lanes the points (LANES 16); on a GPU a work-item takes one point (LANES 1).
 // Global size: 16 / LANES times the number of chunks; local size 16 / LANES.
 #include "density.clh"
 
@@ -28,7 +28,7 @@ typedef int truth;
 
 // Which kernels a chunk's points see, and from where.
 typedef struct {
-  int origin[3];  // of the brick; offsets of points are from here, voxels
+  int origin[3];    // of the brick; offsets of points are from here, voxels
   uint first, end;  // in the list
   uint unused[3];
 } Chunk;
@@ -103,8 +103,8 @@ static Vertex choose(Vertex no, Vertex yes, truth c) {
   return v;
 }
 
-// At most `steps` Newton steps along the gradient, cut at the faces of the cell [low, low + 1]; a step
-// that brings N no closer to T is halved.
+// At most `steps` Newton steps along the gradient, cut at the faces of the cell [low, low + 1]; a
+// step that brings N no closer to T is halved.
 static Vertex newton(global const Kernel* kernels, global const uint* list,
                      global const Chunk* chunk, float threshold, int steps, Vertex best, real low_x,
                      real low_y, real low_z) {
@@ -113,11 +113,10 @@ static Vertex newton(global const Kernel* kernels, global const uint* list,
     const real steepness = steepness_of(best.sample);
     const real t = -share * best.miss / fmax(steepness, REAL(1e-20f));
     const real along = t / fmax(fabs(t) * sqrt(steepness), REAL(1.0f));  // a voxel at most
-    const Vertex next =
-        vertex_at(kernels, list, chunk, threshold,
-                  clamp(fma(along, best.sample.dx, best.x), low_x, low_x + 1.0f),
-                  clamp(fma(along, best.sample.dy, best.y), low_y, low_y + 1.0f),
-                  clamp(fma(along, best.sample.dz, best.z), low_z, low_z + 1.0f));
+    const Vertex next = vertex_at(kernels, list, chunk, threshold,
+                                  clamp(fma(along, best.sample.dx, best.x), low_x, low_x + 1.0f),
+                                  clamp(fma(along, best.sample.dy, best.y), low_y, low_y + 1.0f),
+                                  clamp(fma(along, best.sample.dz, best.z), low_z, low_z + 1.0f));
     const truth closer = fabs(next.miss) < fabs(best.miss);
     best = choose(best, next, closer);
     share = select(0.5f * share, REAL(1.0f), closer);
@@ -125,8 +124,9 @@ static Vertex newton(global const Kernel* kernels, global const uint* list,
   return best;
 }
 
-// Where Newton's way ends at a face or on a plain: the crossing between the point and the nearest corner
-// of the cell on the other side of the surface, by halving. A cell of the mesh has corners on both.
+// Where Newton's way ends at a face or on a plain: the crossing between the point and the nearest
+// corner of the cell on the other side of the surface, by halving. A cell of the mesh has corners
+// on both.
 static Vertex bisect(global const Kernel* kernels, global const uint* list,
                      global const Chunk* chunk, float threshold, Vertex start, real low_x,
                      real low_y, real low_z) {
@@ -156,8 +156,8 @@ static Vertex bisect(global const Kernel* kernels, global const uint* list,
                    fma(low, dz, start.z));
 }
 
-// Moves each point onto N = threshold within the cell that it starts in (steps = 0: leaves it where it
-// is) and writes the normal -grad N / |grad N| there, or zero where the gradient vanishes.
+// Moves each point onto N = threshold within the cell that it starts in (steps = 0: leaves it where
+// it is) and writes the normal -grad N / |grad N| there, or zero where the gradient vanishes.
 kernel void snap_points(global const Kernel* restrict kernels, global const Chunk* restrict chunks,
                         global const uint* restrict list, float threshold, int steps,
                         global float* restrict xs, global float* restrict ys,

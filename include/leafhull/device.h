@@ -10,13 +10,13 @@ namespace leafhull {
 /// An OpenCL device as `leafhull devices` lists it.
 struct DeviceInfo {
   std::string name, platform, version, driver;
-  std::string type;           ///< "CPU", "GPU" or "other"
-  std::string variant;        ///< the density kernel used there: "vector" or "work-item"
+  std::string type;     ///< "CPU", "GPU" or "other"
+  std::string variant;  ///< the density kernel used there: "vector" or "work-item"
   int compute_units = 0;
   std::size_t memory_bytes = 0;
   bool usable = false;
   bool chosen = false;
-  std::string reason;         ///< why it is usable or not, chosen or not
+  std::string reason;  ///< why it is usable or not, chosen or not
 };
 
 struct DeviceOptions {

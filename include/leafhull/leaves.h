@@ -25,12 +25,12 @@ struct LeafOptions {
 
 /// Where a kernel sits: a vertex of a leaf with the leaf's frame. The third axis is normal x major.
 struct LeafVertex {
-  Vec3d position;        ///< c_j, model units
-  Vec3f normal;          ///< n_j, unit
-  Vec3f major;           ///< u_j, unit, orthogonal to the normal
-  float radius_major;    ///< R_u, model units
-  float radius_minor;    ///< R_v <= R_u
-  std::uint32_t leaf;    ///< which leaf, below LeafSet::leaf_count
+  Vec3d position;      ///< c_j, model units
+  Vec3f normal;        ///< n_j, unit
+  Vec3f major;         ///< u_j, unit, orthogonal to the normal
+  float radius_major;  ///< R_u, model units
+  float radius_minor;  ///< R_v <= R_u
+  std::uint32_t leaf;  ///< which leaf, below LeafSet::leaf_count
 };
 
 struct LeafSet {
@@ -51,11 +51,14 @@ struct PrimitiveSummary {
   bool leaves = false;  ///< would be taken as leaves
 };
 
-/// One row per primitive and distinct node name, in file order. SPEC: 1, "which primitives are leaves".
+/// One row per primitive and distinct node name, in file order. SPEC: 1, "which primitives are
+/// leaves".
 std::vector<PrimitiveSummary> summarize(const TreeModel& tree, const LeafOptions& options);
 
-/// The leaves of a tree, one kernel frame at every leaf vertex. SPEC: 1; Source: Eqs. (5), (6), p. 51.
-/// @throws Error input where nothing matches (the names in the file are listed) or nothing is usable;
+/// The leaves of a tree, one kernel frame at every leaf vertex. SPEC: 1; Source: Eqs. (5), (6),
+/// p. 51.
+/// @throws Error input where nothing matches (the names in the file are listed) or nothing is
+/// usable;
 ///         usage where an option is out of range.
 LeafSet find_leaves(const TreeModel& tree, const LeafOptions& options);
 

@@ -35,12 +35,12 @@ struct Options {
   std::optional<double> coverage;           ///< T as a quantile of N over the leaf vertices
   std::optional<double> radius_max;         ///< R_max in radius_unit
   RadiusUnit radius_unit = RadiusUnit::crown;
-  std::optional<double> flatness;           ///< lambda_R
-  int falloff = 2;                          ///< k
+  std::optional<double> flatness;  ///< lambda_R
+  int falloff = 2;                 ///< k
   Spread spread = Spread::stddev;
   DensitySource density = DensitySource::exact;
-  double band_low = 0;                      ///< a1
-  double band_high = 2;                     ///< a2
+  double band_low = 0;   ///< a1
+  double band_high = 2;  ///< a2
   std::optional<double> min_component;
 
   // Resolution and surface: at most one of the first three is set by a user
@@ -79,11 +79,11 @@ Options resolve(Options options);
 /// One row per option: the flags, the report's parameters and README's table derive from it.
 struct OptionRow {
   using Member =
-      std::variant<bool Options::*, int Options::*, double Options::*, std::optional<int> Options::*,
-                   std::optional<double> Options::*, Style Options::*, std::optional<Method> Options::*,
-                   RadiusUnit Options::*, Spread Options::*, DensitySource Options::*,
-                   std::optional<Preset> Options::*, std::vector<std::string> Options::*,
-                   std::optional<TextureEllipse> Options::*>;
+      std::variant<bool Options::*, int Options::*, double Options::*,
+                   std::optional<int> Options::*, std::optional<double> Options::*,
+                   Style Options::*, std::optional<Method> Options::*, RadiusUnit Options::*,
+                   Spread Options::*, DensitySource Options::*, std::optional<Preset> Options::*,
+                   std::vector<std::string> Options::*, std::optional<TextureEllipse> Options::*>;
 
   /// As in the flag --name and, with underscores, in the report. What is on by default has the
   /// flag --no-name.
@@ -94,8 +94,8 @@ struct OptionRow {
   std::string_view default_value;  ///< in words, e.g. "by style"
   std::string_view help;
   Member member;
-  double low = 0, high = 0;        ///< bounds of a number
-  bool low_open = false;           ///< the lower bound itself is excluded
+  double low = 0, high = 0;  ///< bounds of a number
+  bool low_open = false;     ///< the lower bound itself is excluded
 };
 
 std::span<const OptionRow> option_table();

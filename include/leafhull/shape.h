@@ -20,13 +20,14 @@ namespace leafhull {
 /// A density function D_j: its centre, two of its axes and its radii after control; the third axis
 /// is normal x major. Source: Eqs. (3), (4), (8).
 struct Kernel {
-  Vec3d centre;         ///< c_j, model units
-  Vec3f normal, major;  ///< n_j, u_j, unit, orthogonal
+  Vec3d centre;                                     ///< c_j, model units
+  Vec3f normal, major;                              ///< n_j, u_j, unit, orthogonal
   float radius_major, radius_minor, radius_normal;  ///< R_u, R_v, R_n, model units, > 0
 };
 
-/// A closed triangle mesh, counter-clockwise seen from outside. A vertex is at origin + positions[i];
-/// the origin is zero unless the tree lies so far out that floats would lose the shape.
+/// A closed triangle mesh, counter-clockwise seen from outside. A vertex is at origin +
+/// positions[i]; the origin is zero unless the tree lies so far out that floats would lose the
+/// shape.
 struct Mesh {
   Vec3d origin;
   std::vector<Vec3f> positions;
@@ -59,11 +60,11 @@ struct StageTime {
 
 /// What an extraction did, for people and for `--report`.
 struct Report {
-  Options options;                ///< resolved
-  double threshold = 0;           ///< T
-  double radius_max_model = 0;    ///< R_max, model units
-  int resolution = 0;             ///< voxels along the longest side
-  double voxel_size = 0;          ///< h, model units
+  Options options;              ///< resolved
+  double threshold = 0;         ///< T
+  double radius_max_model = 0;  ///< R_max, model units
+  int resolution = 0;           ///< voxels along the longest side
+  double voxel_size = 0;        ///< h, model units
   std::string device;
   Counts counts;
   DensityStatistics density;
@@ -75,8 +76,8 @@ struct Report {
 
 struct Shape {
   Mesh mesh;
-  std::vector<Kernel> kernels;              ///< one per leaf vertex, in LeafSet order
-  std::vector<float> isotropic_density;     ///< N_iso(c_j), one per kernel
+  std::vector<Kernel> kernels;           ///< one per leaf vertex, in LeafSet order
+  std::vector<float> isotropic_density;  ///< N_iso(c_j), one per kernel
   std::shared_ptr<const Field> field;
   Report report;
 };
@@ -84,9 +85,11 @@ struct Shape {
 /// Called from the calling thread at the start of each stage and as it goes on, `done` from 0 to 1.
 using Progress = std::function<void(std::string_view stage, double done)>;
 
-/// The abstract shape of a tree's leaves: the stages of Figure 8, one after the other. SPEC: 2 to 6.
+/// The abstract shape of a tree's leaves: the stages of Figure 8, one after the other. SPEC: 2
+/// to 6.
 /// @throws Error usage: options, or a resolution that does not fit in memory; device; empty: no
 ///         sample reaches the threshold, or everything is inside.
-Shape extract(const LeafSet& leaves, const Options& options, Device& device, const Progress& progress = {});
+Shape extract(const LeafSet& leaves, const Options& options, Device& device,
+              const Progress& progress = {});
 
 }  // namespace leafhull

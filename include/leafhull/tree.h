@@ -26,19 +26,19 @@ enum class Wrap { repeat, clamp, mirror };
 struct Material {
   std::string name;
   AlphaMode alpha_mode = AlphaMode::opaque;
-  double alpha_cutoff = 0.5;                        ///< of `mask`; 0..1
-  std::array<float, 4> base_color{1, 1, 1, 1};      ///< linear, multiplies the image
-  int base_color_image = -1;                        ///< into TreeModel::images, -1: none
+  double alpha_cutoff = 0.5;                    ///< of `mask`; 0..1
+  std::array<float, 4> base_color{1, 1, 1, 1};  ///< linear, multiplies the image
+  int base_color_image = -1;                    ///< into TreeModel::images, -1: none
   Wrap wrap_u = Wrap::repeat, wrap_v = Wrap::repeat;
 };
 
 /// Triangles of one material in the space of their mesh.
 struct Primitive {
   std::string mesh_name;
-  int material = -1;               ///< into TreeModel::materials, -1: none
-  std::vector<Vec3f> positions;    ///< finite
-  std::vector<Vec3f> normals;      ///< as many as positions, or none
-  std::vector<Vec2f> uvs;          ///< for base_color_image, its texture transform applied; v down; or none
+  int material = -1;             ///< into TreeModel::materials, -1: none
+  std::vector<Vec3f> positions;  ///< finite
+  std::vector<Vec3f> normals;    ///< as many as positions, or none
+  std::vector<Vec2f> uvs;  ///< for base_color_image, its texture transform applied; v down; or none
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< every index is below positions.size()
 };
 

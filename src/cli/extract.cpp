@@ -104,7 +104,7 @@ std::uint64_t peak_memory_bytes() {
   return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
 }
 
-void say_summary(Console& console, const Shape& shape, const OutputFiles& files, double seconds_) {
+void say_summary(Console& console, const Shape& shape, const OutputFiles& files, double elapsed) {
   const Report& report = shape.report;
   std::string where;
   for (const auto& file : named(files)) {
@@ -114,7 +114,7 @@ void say_summary(Console& console, const Shape& shape, const OutputFiles& files,
               count(report.counts.mesh_triangles) + " triangles, " +
               count(report.counts.components) +
               (report.counts.components == 1 ? " component" : " components") +
-              " at T = " + number(report.threshold, 4) + " in " + seconds(seconds_) + ": " + where);
+              " at T = " + number(report.threshold, 4) + " in " + seconds(elapsed) + ": " + where);
 }
 
 void say_details(Console& console, const Report& report) {

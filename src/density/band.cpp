@@ -45,8 +45,9 @@ std::vector<Block> find_band(const KernelHash& hash, const BandOptions& options,
     all.inside.insert(all.inside.end(), found.inside.begin(), found.inside.end());
   };
   const auto full = [](const Found& found) { return is_full(found.bricks); };
-  in_batches<Found>(roots, [&] { return Descent(hash, options.falloff, options.margin); }, search,
-                    join, full, flush);
+  in_batches<Found>(
+      roots, [&] { return Descent(hash, options.falloff, options.margin); }, search, join, full,
+      flush);
   return inside;
 }
 

@@ -17,9 +17,9 @@ inline bool is_full(const BrickList& bricks) {
   return bricks.kernels.size() >= (std::size_t{1} << 24) || bricks.size() >= (std::size_t{1} << 15);
 }
 
-/// Searches `roots` in parallel, a group at a time, joins what was found in the order of the roots and
-/// hands it to flush(found, done) on the calling thread whenever full(found), and at the end. The
-/// device works only while no search runs.
+/// Searches `roots` in parallel, a group at a time, joins what was found in the order of the roots
+/// and hands it to flush(found, done) on the calling thread whenever full(found), and at the end.
+/// The device works only while no search runs.
 template <class Found, class Roots, class MakeDescent, class Search, class Join, class Full,
           class Flush>
 void in_batches(const Roots& roots, MakeDescent&& make_descent, Search&& search, Join&& join,
@@ -30,9 +30,8 @@ void in_batches(const Roots& roots, MakeDescent&& make_descent, Search&& search,
   for (std::size_t begin = 0; begin < roots.size(); begin += kGroup) {
     const std::size_t end = std::min(begin + kGroup, roots.size());
     std::vector<Found> found(end - begin);
-    tbb::parallel_for(begin, end, [&](std::size_t r) {
-      search(descents.local(), roots[r], found[r - begin]);
-    });
+    tbb::parallel_for(begin, end,
+                      [&](std::size_t r) { search(descents.local(), roots[r], found[r - begin]); });
     for (const Found& one : found) join(all, one);
     if (full(all)) {
       flush(all, static_cast<double>(end) / static_cast<double>(roots.size()));

@@ -12,9 +12,9 @@ struct Interval {
   float low, high;
 };
 
-/// Bounds on xi over the cube with centre `from_kernel` (relative to the kernel's centre, voxels) and
-/// half extent `half`: with m_a = |a.(q - c)| and e_a = half * sum |a_i| for each axis a,
-/// sum max(0, m_a - e_a)^2 <= xi <= sum (m_a + e_a)^2. SPEC: 5.
+/// Bounds on xi over the cube with centre `from_kernel` (relative to the kernel's centre, voxels)
+/// and half extent `half`: with m_a = |a.(q - c)| and e_a = half * sum |a_i| for each axis a, sum
+/// max(0, m_a - e_a)^2 <= xi <= sum (m_a + e_a)^2. SPEC: 5.
 inline Interval xi_bounds(const std::array<Vec3f, 3>& axes, Vec3f from_kernel, float half) {
   Interval xi{0, 0};
   for (const Vec3f& a : axes) {

@@ -60,9 +60,8 @@ std::vector<Kernel> controlled_kernels(std::span<const LeafVertex> leaves,
   std::vector<Kernel> kernels;
   kernels.reserve(leaves.size());
   for (std::size_t j = 0; j < leaves.size(); ++j) {
-    const double share = resolved.method == Method::uncontrolled
-                             ? 1
-                             : anisotropy(isotropic_density[j], statistics);
+    const double share =
+        resolved.method == Method::uncontrolled ? 1 : anisotropy(isotropic_density[j], statistics);
     const auto radius = [&](double of_leaf) {
       const double r = radius_max + (of_leaf - radius_max) * share;
       return std::max(r, kSmallestRadius * radius_max);
@@ -77,8 +76,9 @@ std::vector<Kernel> controlled_kernels(std::span<const LeafVertex> leaves,
 double threshold_for_coverage(std::span<const float> density, double coverage) {
   std::vector<float> ranked(density.begin(), density.end());
   const std::size_t count = ranked.size();
-  const auto below = std::min(
-      count - 1, static_cast<std::size_t>(std::llround((1 - coverage) * static_cast<double>(count))));
+  const auto below =
+      std::min(count - 1,
+               static_cast<std::size_t>(std::llround((1 - coverage) * static_cast<double>(count))));
   const auto at = ranked.begin() + static_cast<std::ptrdiff_t>(below);
   std::nth_element(ranked.begin(), at, ranked.end());
   if (below == 0) return *at;

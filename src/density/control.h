@@ -11,8 +11,8 @@
 namespace leafhull {
 
 /// Mean and variance of N_iso over the leaf vertices and the densities p1 and p2 between which
-/// kernels go from isotropic to the shape of their leaf. Source: Eqs. (9), (10); the paper prints the
-/// variance for the spread (SPEC: 3, open point).
+/// kernels go from isotropic to the shape of their leaf. Source: Eqs. (9), (10); the paper prints
+/// the variance for the spread (SPEC: 3, open point).
 DensityStatistics density_statistics(std::span<const float> isotropic_density,
                                      const Options& resolved);
 

@@ -85,7 +85,7 @@ class Descent {
   int falloff_;
   int margin_;
   Coord root_{};
-  std::vector<Near> near_;                                // the root's kernels
+  std::vector<Near> near_;                                        // the root's kernels
   std::array<std::vector<std::uint32_t>, kLevels + 1> position_;  // into near_, by level
   std::array<std::vector<std::uint32_t>, kLevels + 1> kernels_;   // the same, into the kernel set
 };

@@ -12,10 +12,10 @@ namespace leafhull {
 class Field {
  public:
   Lattice lattice;
-  double threshold = 0;          ///< T
-  std::vector<Coord> origins;    ///< of the evaluated bricks, each once
-  std::vector<float> samples;    ///< N, kBrickSamples per brick, z fastest
-  std::vector<Block> inside;     ///< proven inside, disjoint from each other and from the bricks
+  double threshold = 0;        ///< T
+  std::vector<Coord> origins;  ///< of the evaluated bricks, each once
+  std::vector<float> samples;  ///< N, kBrickSamples per brick, z fastest
+  std::vector<Block> inside;   ///< proven inside, disjoint from each other and from the bricks
 };
 
 }  // namespace leafhull

@@ -52,8 +52,7 @@ KernelHash::KernelHash(KernelHash&&) noexcept = default;
 
 void KernelHash::gather(Vec3d low, Vec3d high, std::vector<std::uint32_t>& found) const {
   const auto cell = [&](Vec3d p, double grow) {
-    return openvdb::Coord::floor(
-        openvdb::Vec3d(p.x + grow, p.y + grow, p.z + grow) / reach_);
+    return openvdb::Coord::floor(openvdb::Vec3d(p.x + grow, p.y + grow, p.z + grow) / reach_);
   };
   auto accessor = grid_->index->getConstAccessor();
   openvdb::tools::PointIndexIterator<> it(

@@ -11,7 +11,8 @@
 
 namespace leafhull {
 
-/// The spatial hash of kernel centres, an OpenVDB point index grid whose cell is the largest radius.
+/// The spatial hash of kernel centres, an OpenVDB point index grid whose cell is the largest
+/// radius.
 class KernelHash {
  public:
   /// `kernels` must outlive the hash; at most 2^32 - 1 of them.
@@ -26,7 +27,8 @@ class KernelHash {
   /// [low, high] (local, voxels) along every axis, in ascending order. Thread-safe.
   void gather(Vec3d low, Vec3d high, std::vector<std::uint32_t>& found) const;
 
-  /// The origins of the root blocks that a support reaches when grown by `margin` voxels, ascending.
+  /// The origins of the root blocks that a support reaches when grown by `margin` voxels,
+  /// ascending.
   std::vector<Coord> root_blocks(double margin) const;
 
  private:

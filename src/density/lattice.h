@@ -31,8 +31,8 @@ struct Block {
 /// The global lattice of integer multiples of the voxel size. Stages compute relative to an anchor,
 /// a lattice point near the tree, so that a far tree loses no digits. SPEC: 5.
 struct Lattice {
-  double voxel_size = 1;            ///< h, model units, > 0
-  Vec3<std::int64_t> anchor{};      ///< a multiple of kRootEdge along each axis
+  double voxel_size = 1;        ///< h, model units, > 0
+  Vec3<std::int64_t> anchor{};  ///< a multiple of kRootEdge along each axis
 
   /// The lattice of voxel size `voxel_size` anchored near `p`.
   static Lattice near(Vec3d p, double voxel_size) {

@@ -11,9 +11,9 @@ namespace leafhull {
 /// A kernel in lattice units: xi(p) is the squared length of (axes . (p - cell - offset)), so an
 /// axis is a unit vector over its radius in voxels. Source: Eq. (3).
 struct LatticeKernel {
-  Coord cell;                  ///< holds the centre
-  Vec3f offset;                ///< of the centre in its cell, [0, 1)
-  std::array<Vec3f, 3> axes;   ///< major, minor, normal
+  Coord cell;                 ///< holds the centre
+  Vec3f offset;               ///< of the centre in its cell, [0, 1)
+  std::array<Vec3f, 3> axes;  ///< major, minor, normal
 };
 
 inline LatticeKernel to_lattice(const Kernel& kernel, const Lattice& lattice) {

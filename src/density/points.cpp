@@ -108,9 +108,10 @@ void find_kernels_near(const KernelHash& hash, std::span<const Vec3d> points, in
   const auto flush = [&](const PointBatch& found, double) {
     if (!found.index.empty()) visit(found);
   };
-  constexpr int kMargin = 1;  // a point may move within its cell, whose upper faces are the next brick's
-  in_batches<PointBatch>(roots, [&] { return Descent(hash, falloff, kMargin); }, search, join, full,
-                         flush);
+  constexpr int kMargin =
+      1;  // a point may move within its cell, whose upper faces are the next brick's
+  in_batches<PointBatch>(
+      roots, [&] { return Descent(hash, falloff, kMargin); }, search, join, full, flush);
 }
 
 }  // namespace leafhull

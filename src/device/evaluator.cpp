@@ -49,8 +49,8 @@ DeviceKernel to_device(const LatticeKernel& kernel) {
   return k;
 }
 
-/// A batch's points in chunks of kChunk, coordinate by coordinate; the last chunk of a brick is filled
-/// up with its last point.
+/// A batch's points in chunks of kChunk, coordinate by coordinate; the last chunk of a brick is
+/// filled up with its last point.
 struct Chunks {
   std::vector<Chunk> chunks;
   std::vector<float> x, y, z;
@@ -103,8 +103,7 @@ struct Evaluator::Impl {
   template <class T>
   cl::Buffer buffer(std::span<T> values, cl_mem_flags access) {
     if (values.empty()) return cl::Buffer(engine.context, access, 1);
-    const cl_mem_flags place =
-        engine.shares_memory() ? CL_MEM_USE_HOST_PTR : CL_MEM_COPY_HOST_PTR;
+    const cl_mem_flags place = engine.shares_memory() ? CL_MEM_USE_HOST_PTR : CL_MEM_COPY_HOST_PTR;
     return cl::Buffer(engine.context, access | place, values.size_bytes(),
                       const_cast<std::remove_const_t<T>*>(values.data()));
   }
@@ -131,9 +130,8 @@ struct Evaluator::Impl {
   void launch_points(const cl::Kernel& kernel, const Chunks& c) {
     if (c.chunks.empty()) return;
     const std::size_t per_chunk = engine.vector() ? 1 : kChunk;
-    engine.queue.enqueueNDRangeKernel(kernel, cl::NullRange,
-                                      cl::NDRange(c.chunks.size() * per_chunk),
-                                      cl::NDRange(per_chunk));
+    engine.queue.enqueueNDRangeKernel(
+        kernel, cl::NullRange, cl::NDRange(c.chunks.size() * per_chunk), cl::NDRange(per_chunk));
   }
 };
 
@@ -157,10 +155,9 @@ std::uint64_t Evaluator::sample(const BrickList& bricks, std::span<float> sample
   std::vector<std::uint32_t> pairs(bricks.size());
 
   d.run("evaluating the density", [&] {
-    cl::Kernel kernel =
-        d.engine.kernel(d.engine.vector() ? kernel_source_density_vector
-                                          : kernel_source_density_work_item,
-                        d.options, "density_bricks");
+    cl::Kernel kernel = d.engine.kernel(
+        d.engine.vector() ? kernel_source_density_vector : kernel_source_density_work_item,
+        d.options, "density_bricks");
     const cl::Buffer list = d.input(bricks.kernels);
     kernel.setArg(0, d.kernels);
     kernel.setArg(3, list);

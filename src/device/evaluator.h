@@ -12,8 +12,8 @@
 
 namespace leafhull {
 
-/// Evaluates N on a device for one kernel set on one lattice. Every call returns when its results are
-/// there. A sum runs over its list in order, so results depend on the list alone.
+/// Evaluates N on a device for one kernel set on one lattice. Every call returns when its results
+/// are there. A sum runs over its list in order, so results depend on the list alone.
 class Evaluator {
  public:
   /// Uploads the kernels. @throws Error device, as all calls do: out of memory, a failing driver.

@@ -109,7 +109,7 @@ WeldedMesh weld(const Primitive& primitive) {
   };
   std::vector<Stored> stored;
   stored.reserve(primitive.positions.size());
-  // Adding zero turns -0 into 0.
+  // Adding zero turns -0 into 0, so that what is equal has equal bits.
   for (const Vec3f& p : primitive.positions) {
     stored.push_back({p + Vec3f(0, 0, 0), static_cast<std::uint32_t>(stored.size())});
   }

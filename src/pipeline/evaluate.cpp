@@ -42,8 +42,8 @@ std::vector<float> DensityFunction::interpolated_at(std::span<const Vec3d> point
     for (int i = 0; i < 8; ++i) {
       const Coord c = corner(cell, i);
       const auto found = std::lower_bound(samples.begin(), samples.end(), c) - samples.begin();
-      sum += (i >> 2 & 1 ? f.x : 1 - f.x) * (i >> 1 & 1 ? f.y : 1 - f.y) *
-             (i & 1 ? f.z : 1 - f.z) * static_cast<double>(values[static_cast<std::size_t>(found)]);
+      sum += (i >> 2 & 1 ? f.x : 1 - f.x) * (i >> 1 & 1 ? f.y : 1 - f.y) * (i & 1 ? f.z : 1 - f.z) *
+             static_cast<double>(values[static_cast<std::size_t>(found)]);
     }
     density.push_back(static_cast<float>(sum));
   }

@@ -26,8 +26,8 @@ class DensityFunction {
   /// N at points given in voxels from the lattice's anchor.
   std::vector<float> at(std::span<const Vec3d> points);
 
-  /// N interpolated trilinearly from the lattice at points given in voxels from its anchor: step 2 of
-  /// the paper's Figure 8.
+  /// N interpolated trilinearly from the lattice at points given in voxels from its anchor: step 2
+  /// of the paper's Figure 8.
   std::vector<float> interpolated_at(std::span<const Vec3d> points);
 
   struct Sampled {

@@ -28,9 +28,12 @@ constexpr int kSnapSteps = 12;
 
 double radius_in_model_units(const LeafSet& leaves, const Options& options) {
   switch (options.radius_unit) {
-    case RadiusUnit::crown: return *options.radius_max * leaves.bounds.longest_side() / kCrownUnits;
-    case RadiusUnit::leaf: return *options.radius_max * leaves.mean_radius_major;
-    case RadiusUnit::model: return *options.radius_max;
+    case RadiusUnit::crown:
+      return *options.radius_max * leaves.bounds.longest_side() / kCrownUnits;
+    case RadiusUnit::leaf:
+      return *options.radius_max * leaves.mean_radius_major;
+    case RadiusUnit::model:
+      return *options.radius_max;
   }
   throw Error(ErrorCode::internal, "unknown radius unit");
 }
@@ -179,8 +182,8 @@ Shape extract(const LeafSet& leaves, const Options& asked, Device& device,
       std::count_if(density_at_leaves.begin(), density_at_leaves.end(),
                     [&](float n) { return static_cast<double>(n) < threshold; }));
 
-  report.device = device.info().name + " (" + device.info().platform + ", " +
-                  device.info().variant + ")";
+  report.device =
+      device.info().name + " (" + device.info().platform + ", " + device.info().variant + ")";
   report.counts = {.leaves = leaves.leaf_count,
                    .leaf_vertices = leaves.vertices.size(),
                    .dropped_leaves = leaves.dropped_leaves,

@@ -81,10 +81,9 @@ void check_memory(std::span<const Kernel> kernels, const Box& bounds, const Repo
   const double finer =
       report.resolution / kCoarseResolution;  // > 1, or the coarse lattice would not fit
   const double power = report.options.dense ? 3 : 2;
-  const double coarse =
-      report.options.dense
-          ? dense / std::pow(finer, power)
-          : band_samples(kernels, bounds, report.voxel_size * finer, report);
+  const double coarse = report.options.dense
+                            ? dense / std::pow(finer, power)
+                            : band_samples(kernels, bounds, report.voxel_size * finer, report);
   const double needed = coarse * std::pow(finer, power) * kBytesPerVoxel;
   if (needed <= static_cast<double>(available)) return;
 

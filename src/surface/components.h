@@ -11,9 +11,9 @@ struct ComponentCount {
   std::uint64_t kept = 0, dropped = 0;
 };
 
-/// Drops the connected components of a closed mesh whose enclosed volume is below `smallest` times the
-/// largest one's; the order of what stays is kept. A hollow inside another component is a component
-/// of its own, measured by the volume it takes away.
+/// Drops the connected components of a closed mesh whose enclosed volume is below `smallest` times
+/// the largest one's; the order of what stays is kept. A hollow inside another component is a
+/// component of its own, measured by the volume it takes away.
 ComponentCount drop_small_components(Mesh& mesh, double smallest);
 
 }  // namespace leafhull

@@ -50,8 +50,8 @@ VoxelCount count_brick(const Accessor& depth, Coord origin) {
   return count;
 }
 
-/// A cell with a corner in an evaluated brick has its lowest corner there or in a neighbour, which, if
-/// it was not evaluated, is proven to be on one side together with the cell.
+/// A cell with a corner in an evaluated brick has its lowest corner there or in a neighbour, which,
+/// if it was not evaluated, is proven to be on one side together with the cell.
 VoxelCount count_voxels(const Field& field, const openvdb::FloatGrid& depth) {
   VoxelCount count = tbb::parallel_reduce(
       tbb::blocked_range<std::size_t>(0, field.origins.size()), VoxelCount{},
@@ -102,8 +102,7 @@ Metrics measure(const Field& field, const openvdb::FloatGrid& depth,
     const Side side = side_of(corners);
     if (side != Side::outside) occupied.push_back(cell);
     metrics.off_site_sampled +=
-        side == Side::outside ||
-        (side == Side::on && interpolate(corners, p - to_vec3d(cell)) > 0);
+        side == Side::outside || (side == Side::on && interpolate(corners, p - to_vec3d(cell)) > 0);
   }
   tbb::parallel_sort(occupied);
   const auto end = std::unique(occupied.begin(), occupied.end());

@@ -11,8 +11,8 @@
 
 namespace leafhull {
 
-/// A closed mesh of quads and triangles in voxels from the field's anchor, counter-clockwise seen from
-/// outside. A triangle repeats its last index.
+/// A closed mesh of quads and triangles in voxels from the field's anchor, counter-clockwise seen
+/// from outside. A triangle repeats its last index.
 struct Polygons {
   std::vector<Vec3f> points;
   std::vector<std::array<std::uint32_t, 4>> faces;

@@ -55,17 +55,18 @@ Tree::Ptr build_tree(const Field& field, openvdb::Coord offset, float background
 openvdb::FloatGrid::Ptr density_grid(const Field& field) {
   const auto index = [](std::int64_t anchor) {
     if (std::abs(anchor) > std::numeric_limits<std::int32_t>::max() / 2) {
-      throw Error(ErrorCode::output, "the tree lies too many voxels from the origin for a .vdb grid",
+      throw Error(ErrorCode::output,
+                  "the tree lies too many voxels from the origin for a .vdb grid",
                   "Move it closer to the origin or take larger voxels.");
     }
     return static_cast<std::int32_t>(anchor);
   };
   const Vec3<std::int64_t> anchor = field.lattice.anchor;
   const openvdb::Coord offset(index(anchor.x), index(anchor.y), index(anchor.z));
-  const auto above = std::nextafter(static_cast<float>(field.threshold),
-                                    std::numeric_limits<float>::infinity());
-  auto grid = openvdb::FloatGrid::create(
-      build_tree(field, offset, 0.0f, above, [](float n) { return n; }));
+  const auto above =
+      std::nextafter(static_cast<float>(field.threshold), std::numeric_limits<float>::infinity());
+  auto grid =
+      openvdb::FloatGrid::create(build_tree(field, offset, 0.0f, above, [](float n) { return n; }));
   grid->setName("density");
   grid->setGridClass(openvdb::GRID_FOG_VOLUME);
   grid->setTransform(openvdb::math::Transform::createLinearTransform(field.lattice.voxel_size));
@@ -82,8 +83,7 @@ openvdb::FloatGrid::Ptr depth_grid(const Field& field) {
     return d == 0.0f ? kAtThreshold : d;
   };
   const auto outside = static_cast<float>(threshold);
-  return openvdb::FloatGrid::create(
-      build_tree(field, openvdb::Coord(0), outside, -outside, depth));
+  return openvdb::FloatGrid::create(build_tree(field, openvdb::Coord(0), outside, -outside, depth));
 }
 
 }  // namespace leafhull

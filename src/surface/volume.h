@@ -8,7 +8,8 @@
 namespace leafhull {
 
 /// N as a sparse grid named `density` on the global lattice, with metadata `threshold`: evaluated
-/// samples active; what is proven inside, inactive tiles of a value above T; the background 0. SPEC: 7.
+/// samples active; what is proven inside, inactive tiles of a value above T; the background 0.
+/// SPEC: 7.
 openvdb::FloatGrid::Ptr density_grid(const Field& field);
 
 /// T - N in voxels from the field's anchor: negative inside (N >= T), positive outside.

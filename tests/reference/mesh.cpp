@@ -62,23 +62,28 @@ std::vector<std::uint32_t> component_of_vertices(const Ply& mesh) {
 void examine_triangles(const Ply& mesh, const std::vector<Point>& positions,
                        const std::vector<Density>& densities, double near, MeshFacts& facts) {
   const std::vector<std::uint32_t> component = component_of_vertices(mesh);
-  std::map<std::uint32_t, double> outwardness;
+  struct Component {
+    double volume = 0, outwardness = 0;
+  };
+  std::map<std::uint32_t, Component> components;
   for (const auto& t : mesh.triangles) {
-    outwardness.try_emplace(component[t[0]]);
-    const Point a = positions[t[0]] - positions[0];
-    const Point b = positions[t[1]] - positions[0], c = positions[t[2]] - positions[0];
-    facts.volume += dot(a, cross(b, c)) / 6;
+    Component& own = components[component[t[0]]];
+    const Point& from = positions[component[t[0]]];
+    const Point a = positions[t[0]] - from, b = positions[t[1]] - from, c = positions[t[2]] - from;
+    own.volume += dot(a, cross(b, c)) / 6;
     const Point area = cross(b - a, c - a);
     for (std::uint32_t vertex : t) {
       const Point& gradient = densities[vertex].gradient;
       const double steepness = length(gradient);
       if (steepness > 0 && facts.distances[vertex] <= near)
-        outwardness[component[t[0]]] -= dot(area, gradient) / steepness;
+        own.outwardness -= dot(area, gradient) / steepness;
     }
   }
-  facts.components = outwardness.size();
-  facts.inward_components = std::size_t(std::count_if(
-      outwardness.begin(), outwardness.end(), [](const auto& entry) { return entry.second < 0; }));
+  facts.components = components.size();
+  for (const auto& [root, own] : components) {
+    facts.volume += own.volume;
+    facts.inward_components += own.volume < 0 && own.outwardness < 0;
+  }
 }
 
 }  // namespace

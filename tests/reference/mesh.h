@@ -12,8 +12,11 @@ namespace recount {
 struct MeshFacts {
   std::size_t unmatched_edges = 0;  ///< directed edges not used once with their reverse once
   std::size_t unused_vertices = 0;
-  std::size_t components = 0;         ///< connected by triangles that share vertices
-  std::size_t inward_components = 0;  ///< whose triangles face up the density, not down
+  std::size_t components = 0;  ///< connected by triangles that share vertices
+  /// Whose triangles face up the density, not down, and whose volume is negative. A hollow has a
+  /// negative volume and faces down; a fold thinner than a voxel may face up and has a positive
+  /// one.
+  std::size_t inward_components = 0;
   double volume = 0;                  ///< signed; model units cubed
   std::vector<double> distances;      ///< |N - T| / |grad N| of each vertex, model units
   std::vector<double> normal_angles;  ///< of each stored normal to -grad N, degrees

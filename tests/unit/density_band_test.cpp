@@ -21,8 +21,8 @@ constexpr Vec3d kFar{1e4, -2e4, 3e3};
 TEST(Bounds, OfASphereAndABox) {
   const LatticeKernel kernel = to_lattice(sphere({0, 0, 0}, 2), {1, {}});
   const Interval xi = xi_bounds(kernel.axes, {5, 0, 0}, 1);
-  EXPECT_FLOAT_EQ(xi.low, 4.0f);                    // (4 / 2)^2
-  EXPECT_FLOAT_EQ(xi.high, 9.0f + 0.25f + 0.25f);   // (6 / 2)^2 and twice (1 / 2)^2
+  EXPECT_FLOAT_EQ(xi.low, 4.0f);                   // (4 / 2)^2
+  EXPECT_FLOAT_EQ(xi.high, 9.0f + 0.25f + 0.25f);  // (6 / 2)^2 and twice (1 / 2)^2
 }
 
 TEST(Bounds, HoldEverySampleOfABox) {

@@ -59,9 +59,9 @@ TEST(Control, RadiiOfEquations7And8) {
   ASSERT_EQ(k.size(), 3u);
   EXPECT_FLOAT_EQ(k[0].radius_major, 2);
   EXPECT_FLOAT_EQ(k[0].radius_normal, 2);
-  EXPECT_FLOAT_EQ(k[1].radius_major, 1.5f);    // halfway from 2 to 1
-  EXPECT_FLOAT_EQ(k[1].radius_minor, 1.25f);   // to 0.5
-  EXPECT_FLOAT_EQ(k[1].radius_normal, 1.2f);   // to 0.8 * 0.5
+  EXPECT_FLOAT_EQ(k[1].radius_major, 1.5f);   // halfway from 2 to 1
+  EXPECT_FLOAT_EQ(k[1].radius_minor, 1.25f);  // to 0.5
+  EXPECT_FLOAT_EQ(k[1].radius_normal, 1.2f);  // to 0.8 * 0.5
   EXPECT_FLOAT_EQ(k[2].radius_major, 1);
   EXPECT_FLOAT_EQ(k[2].radius_minor, 0.5f);
   EXPECT_FLOAT_EQ(k[2].radius_normal, 0.4f);

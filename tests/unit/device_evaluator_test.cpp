@@ -47,8 +47,7 @@ TEST_P(EvaluatorTest, SamplesAgreeWithFloat64) {
       for (std::size_t b = 0; b < bricks.size(); b += 5) {
         for (int s = 0; s < kBrickSamples; s += 7) {
           const Coord at = bricks.origins[b] + Coord{s >> 6, s >> 3 & 7, s & 7};
-          const double n =
-              reference::density(kernels, lattice.world(to_vec3d(at)), falloff());
+          const double n = reference::density(kernels, lattice.world(to_vec3d(at)), falloff());
           worst = std::max(worst, std::fabs(n - samples[b * kBrickSamples + s]) / (1 + n));
           ++compared;
         }

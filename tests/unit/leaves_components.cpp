@@ -168,6 +168,14 @@ TEST(LeafComponents, CubeIsSixLeaves) {
   expect_counts(find_leaves(tree_of({cube}), {}), {6, 24, 1});
 }
 
+TEST(LeafComponents, FrontAndBackOfASharpCornerAreOneLeaf) {
+  Primitive tetrahedron;
+  tetrahedron.positions = {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}};
+  tetrahedron.triangles = {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}};
+  add_back_faces(tetrahedron);
+  expect_counts(find_leaves(tree_of({tetrahedron}), {}), {4, 12, 1});
+}
+
 TEST(LeafComponents, ClosedCrownFallsIntoItsTriangles) {
   const Primitive crown = sphere(100);
   ASSERT_EQ(crown.triangles.size(), 80000u);

@@ -82,26 +82,23 @@ TEST(LeafFrame, NormalsGoByTheInverseTranspose) {
   for (const LeafVertex& vertex : set.vertices) expect_axis(vertex.normal, {-0.3, 0, 0.8});
 }
 
+// A shallow gutter along y, a unit square to the right and half of one to the left; however the
+// triangles are wound.
 TEST(LeafFrame, WithoutNormalsTheFacesDecideByArea) {
-  // Two unit squares that meet at 60 degrees in a gutter along y, one cut to half the area.
   Primitive leaf;
   leaf.positions = {{0, 0, 0}, {0, 1, 0}, {1, 0, 0.1f}, {1, 1, 0.1f}, {-1, 0, 0.1f}};
   leaf.triangles = {{0, 2, 3}, {0, 3, 1}, {0, 1, 4}};
-  const LeafSet set = find_leaves(tree_of({leaf}), {});
-  ASSERT_EQ(set.leaf_count, 1u);
-  expect_frames(set);
-  expect_axis(at(set, {1, 0, 0.1f}).normal, {-0.1f, 0, 1});
-  expect_axis(at(set, {-1, 0, 0.1f}).normal, {0.1f, 0, 1});
-  // Two of the three triangles at the origin belong to the right side, one of two at (0, 1, 0).
-  expect_axis(at(set, {0, 0, 0}).normal, {-0.1f, 0, 3});
-  expect_axis(at(set, {0, 1, 0}).normal, {0, 0, 1});
-}
-
-TEST(LeafFrame, FaceNormalsAreTakenUpToSign) {
-  Primitive leaf = card(1, 1);
-  std::swap(leaf.triangles[1][1], leaf.triangles[1][2]);
-  for (const LeafVertex& vertex : find_leaves(tree_of({leaf}), {}).vertices) {
-    expect_axis(vertex.normal, {0, 0, 1});
+  for (std::size_t reversed = 0; reversed < 4; ++reversed) {
+    Primitive wound = leaf;
+    if (reversed < 3) std::swap(wound.triangles[reversed][1], wound.triangles[reversed][2]);
+    const LeafSet set = find_leaves(tree_of({wound}), {});
+    ASSERT_EQ(set.leaf_count, 1u);
+    expect_frames(set);
+    expect_axis(at(set, {1, 0, 0.1f}).normal, {-0.1f, 0, 1});
+    expect_axis(at(set, {-1, 0, 0.1f}).normal, {0.1f, 0, 1});
+    // Two of the three triangles at the origin belong to the right side, one of two at (0, 1, 0).
+    expect_axis(at(set, {0, 0, 0}).normal, {-0.1f, 0, 3});
+    expect_axis(at(set, {0, 1, 0}).normal, {0, 0, 1});
   }
 }
 

@@ -31,8 +31,8 @@ bool closed(const std::vector<std::array<std::uint32_t, 3>>& triangles) {
 double volume(const Polygons& polygons) {
   double sum = 0;
   for (const auto& [a, b, c] : triangulate(polygons)) {
-    sum += dot(Vec3d(polygons.points[a]),
-               cross(Vec3d(polygons.points[b]), Vec3d(polygons.points[c])));
+    sum +=
+        dot(Vec3d(polygons.points[a]), cross(Vec3d(polygons.points[b]), Vec3d(polygons.points[c])));
   }
   return sum / 6;
 }
@@ -51,8 +51,8 @@ TEST(Polygonise, OneSampleInsideIsAClosedBoxAroundIt) {
 }
 
 TEST(Polygonise, TheSixEdgesOfOneSampleAreCutHalfway) {
-  // N = 2 at the origin, 0 around, T = 1: the octahedron of the crossings has half-axes of 1/2; a dual
-  // vertex is the mean of the three crossings of its cell, at (1, 1, 1) / 6.
+  // N = 2 at the origin, 0 around, T = 1: the octahedron of the crossings has half-axes of 1/2; a
+  // dual vertex is the mean of the three crossings of its cell, at (1, 1, 1) / 6.
   const auto peak = [](Vec3d p) { return p == Vec3d(0, 0, 0) ? 2.0 : 0.0; };
   const Polygons polygons = surface_of(field_of(peak, 1.0, kLow, kHigh));
   for (const Vec3f p : polygons.points) {
@@ -129,8 +129,8 @@ TEST(Metrics, OfASlabByHand) {
     return in ? 2.0 : 0.0;
   };
   const Field field = field_of(slab, 1.0, kLow, kHigh);
-  // Two leaf vertices in one cell, one at the middle of a cell on the surface (trilinear N = 1, just
-  // on), one a little further out, one outside.
+  // Two leaf vertices in one cell, one at the middle of a cell on the surface (trilinear N = 1,
+  // just on), one a little further out, one outside.
   const std::vector<Vec3d> leaves{
       {0.2, 0.2, 0.2}, {0.7, 0.3, 0.1}, {4.49, 0.5, 0.5}, {4.51, 1.5, 0.5}, {9.5, 0.5, 0.5}};
   const Metrics m = measure(field, *depth_grid(field), leaves);
@@ -176,7 +176,8 @@ Mesh tetrahedra(std::vector<float> sizes) {
       mesh.positions.push_back(p + Vec3f(100, 0, 0));
       mesh.normals.push_back({0, 0, s});
     }
-    for (const auto& [a, b, c] : {std::array{0u, 2u, 1u}, {0u, 1u, 3u}, {0u, 3u, 2u}, {1u, 2u, 3u}}) {
+    for (const auto& [a, b, c] :
+         {std::array{0u, 2u, 1u}, {0u, 1u, 3u}, {0u, 3u, 2u}, {1u, 2u, 3u}}) {
       mesh.triangles.push_back({v + a, v + b, v + c});
     }
   }
