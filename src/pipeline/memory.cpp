@@ -16,9 +16,13 @@
 namespace leafhull {
 namespace {
 
-// Measured at 256 to 1024 voxels: samples, the grid, its mesher's scratch and the mesh.
-constexpr double kBytesPerVoxel = 24;
-constexpr double kCoarseResolution = 64;
+// Measured on real trees at 256 and 512 voxels: samples, the grid, its mesher's scratch and the
+// mesh.
+constexpr double kBytesPerVoxel = 26;
+// Samples grow with this power of the resolution: as a surface of ever more detail, or as a volume.
+constexpr double kBandPower = 2.4;
+constexpr double kDensePower = 3;
+constexpr double kCoarseResolution = 128;
 
 std::uint64_t meminfo_available() {
   std::ifstream meminfo("/proc/meminfo");
@@ -55,11 +59,12 @@ double dense_samples(const Box& bounds, double radius_max, double h) {
   return along(size.x) * along(size.y) * along(size.z);
 }
 
-double band_samples(std::span<const Kernel> kernels, const Box& bounds, double h,
-                    const Report& report) {
+/// Samples that would be evaluated at voxel size `h`.
+double evaluated_samples(std::span<const Kernel> kernels, const Box& bounds, double h,
+                         const Report& report) {
   const KernelHash hash(kernels, Lattice::near(bounds.low, h));
   double bricks = 0;
-  find_band(hash, {report.threshold, report.options.falloff, 1, false},
+  find_band(hash, {report.threshold, report.options.falloff, 1, report.options.dense},
             [&](const BrickList& list, double) { bricks += static_cast<double>(list.size()); });
   return bricks * kBrickSamples;
 }
@@ -78,18 +83,17 @@ void check_memory(std::span<const Kernel> kernels, const Box& bounds, const Repo
   const double dense = dense_samples(bounds, report.radius_max_model, report.voxel_size);
   if (fits(dense)) return;
 
-  const double finer =
-      report.resolution / kCoarseResolution;  // > 1, or the coarse lattice would not fit
-  const double power = report.options.dense ? 3 : 2;
-  const double coarse = report.options.dense
-                            ? dense / std::pow(finer, power)
-                            : band_samples(kernels, bounds, report.voxel_size * finer, report);
-  const double needed = coarse * std::pow(finer, power) * kBytesPerVoxel;
+  // More than 1, or `dense` would fit.
+  const double finer = report.resolution / kCoarseResolution;
+  const double power = report.options.dense ? kDensePower : kBandPower;
+  const double needed = evaluated_samples(kernels, bounds, report.voxel_size * finer, report) *
+                        std::pow(finer, power) * kBytesPerVoxel;
   if (needed <= static_cast<double>(available)) return;
 
   constexpr double kGiB = 1 << 30;
+  constexpr double kToSpare = 0.98;  // what is available changes from run to run
   const double largest =
-      report.resolution * std::pow(static_cast<double>(available) / needed, 1 / power);
+      kToSpare * report.resolution * std::pow(static_cast<double>(available) / needed, 1 / power);
   char text[200];
   std::snprintf(text, sizeof text,
                 "a resolution of %.0f voxels needs about %.3g GiB, and %.3g GiB are available",

@@ -14,8 +14,7 @@ namespace leafhull {
 std::uint64_t available_memory();
 
 /// Refuses a resolution whose field and mesh would not fit, before they are allocated. What they
-/// need is judged from the surface's bricks on a coarse lattice, as the band grows with the square
-/// of the resolution (`dense`: with the cube).
+/// need is judged from the bricks that a coarse lattice would evaluate.
 /// @throws Error usage: how much is needed and the largest resolution that fits.
 void check_memory(std::span<const Kernel> kernels, const Box& bounds, const Report& report,
                   std::uint64_t available);

@@ -87,7 +87,7 @@ void check_mesh(const Extraction& extraction, const std::vector<Kernel>& kernels
   const auto densities =
       sum_at(mesh.points("x", "y", "z"), kernels, extraction.parameter("falloff"));
   const MeshFacts facts =
-      examine(mesh, densities, extraction.number("threshold"), kVertexTolerance * h);
+      examine(mesh, densities, extraction.number("threshold"), kVertexTolerance * h, h * h * h);
   const auto& counts = extraction.report.at("counts");
   const auto compare = [&](const char* quantity, const char* key, std::size_t recount) {
     table.compare(quantity, counts.at(key), double(recount), double(recount), double(recount));

@@ -60,7 +60,8 @@ std::vector<std::uint32_t> component_of_vertices(const Ply& mesh) {
 }
 
 void examine_triangles(const Ply& mesh, const std::vector<Point>& positions,
-                       const std::vector<Density>& densities, double near, MeshFacts& facts) {
+                       const std::vector<Density>& densities, double near, double smallest,
+                       MeshFacts& facts) {
   const std::vector<std::uint32_t> component = component_of_vertices(mesh);
   struct Component {
     double volume = 0, outwardness = 0;
@@ -82,14 +83,14 @@ void examine_triangles(const Ply& mesh, const std::vector<Point>& positions,
   facts.components = components.size();
   for (const auto& [root, own] : components) {
     facts.volume += own.volume;
-    facts.inward_components += own.volume < 0 && own.outwardness < 0;
+    facts.inward_components += own.volume < -smallest && own.outwardness < 0;
   }
 }
 
 }  // namespace
 
 MeshFacts examine(const Ply& mesh, const std::vector<Density>& densities, double threshold,
-                  double near) {
+                  double near, double smallest) {
   const std::vector<Point> positions = mesh.points("x", "y", "z");
   const std::vector<Point> normals = mesh.points("nx", "ny", "nz");
   MeshFacts facts;
@@ -103,7 +104,7 @@ MeshFacts examine(const Ply& mesh, const std::vector<Density>& densities, double
     const double angle = std::atan2(length(cross(normals[i], outward)), dot(normals[i], outward));
     facts.normal_angles.push_back(angle * 180 / M_PI);
   }
-  examine_triangles(mesh, positions, densities, near, facts);
+  examine_triangles(mesh, positions, densities, near, smallest, facts);
   return facts;
 }
 
