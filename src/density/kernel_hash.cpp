@@ -40,9 +40,10 @@ KernelHash::KernelHash(std::span<const Kernel> kernels, const Lattice& lattice)
     : kernels_(kernels),
       lattice_(lattice),
       reach_(largest_radius(kernels) / lattice.voxel_size),
+      cell_(std::max(reach_, static_cast<double>(kBrickEdge))),
       grid_(std::make_unique<Grid>()) {
-  const auto transform = openvdb::math::Transform::createLinearTransform(reach_);
-  transform->postTranslate(openvdb::Vec3d(reach_ / 2));  // cells start at multiples of their size
+  const auto transform = openvdb::math::Transform::createLinearTransform(cell_);
+  transform->postTranslate(openvdb::Vec3d(cell_ / 2));  // cells start at multiples of their size
   grid_->index = openvdb::tools::createPointIndexGrid<openvdb::tools::PointIndexGrid>(
       Centres{kernels_, lattice_}, *transform);
 }
@@ -52,7 +53,7 @@ KernelHash::KernelHash(KernelHash&&) noexcept = default;
 
 void KernelHash::gather(Vec3d low, Vec3d high, std::vector<std::uint32_t>& found) const {
   const auto cell = [&](Vec3d p, double grow) {
-    return openvdb::Coord::floor(openvdb::Vec3d(p.x + grow, p.y + grow, p.z + grow) / reach_);
+    return openvdb::Coord::floor(openvdb::Vec3d(p.x + grow, p.y + grow, p.z + grow) / cell_);
   };
   auto accessor = grid_->index->getConstAccessor();
   openvdb::tools::PointIndexIterator<> it(
@@ -65,12 +66,12 @@ void KernelHash::gather(Vec3d low, Vec3d high, std::vector<std::uint32_t>& found
 std::vector<Coord> KernelHash::root_blocks(double margin) const {
   std::vector<Coord> roots;
   for (auto cell = grid_->index->cbeginValueOn(); cell; ++cell) {
-    const openvdb::Vec3d low = cell.getCoord().asVec3d() * reach_;
+    const openvdb::Vec3d low = cell.getCoord().asVec3d() * cell_;
     const auto root = [&](const openvdb::Vec3d& p) {
       return block_origin(cell_of({p.x(), p.y(), p.z()}), kRootEdge);
     };
     const Coord first = root(low - openvdb::Vec3d(reach_ + margin));
-    const Coord last = root(low + openvdb::Vec3d(2 * reach_ + margin));
+    const Coord last = root(low + openvdb::Vec3d(cell_ + reach_ + margin));
     for (int x = first.x; x <= last.x; x += kRootEdge) {
       for (int y = first.y; y <= last.y; y += kRootEdge) {
         for (int z = first.z; z <= last.z; z += kRootEdge) {

@@ -36,6 +36,7 @@ class KernelHash {
   std::span<const Kernel> kernels_;
   Lattice lattice_;
   double reach_ = 0;  // largest radius, voxels
+  double cell_ = 0;   // of the hash, voxels
   std::unique_ptr<Grid> grid_;
 };
 

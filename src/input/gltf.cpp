@@ -23,19 +23,23 @@ TreeModel read_gltf(ByteSpan bytes, const std::string& name,
   std::map<int, std::vector<std::uint32_t>> primitives;
   for (const Placement& placement : placements) primitives[placement.mesh];
   for (auto& [mesh, numbers] : primitives) {
-    const std::size_t count = file.model.meshes[std::size_t(mesh)].primitives.size();
+    const std::size_t count = file.model.meshes[mesh].primitives.size();
     for (std::size_t i = 0; i < count; ++i) {
-      auto primitive = read_primitive(file, std::size_t(mesh), i, materials, tree.warnings);
+      auto primitive =
+          read_primitive(file, static_cast<std::size_t>(mesh), i, materials, tree.warnings);
       if (!primitive) continue;
-      numbers.push_back(std::uint32_t(tree.primitives.size()));
+      numbers.push_back(static_cast<std::uint32_t>(tree.primitives.size()));
       tree.primitives.push_back(std::move(*primitive));
     }
   }
-  for (const Placement& placement : placements)
-    for (const std::uint32_t primitive : primitives[placement.mesh])
+  for (const Placement& placement : placements) {
+    for (const std::uint32_t primitive : primitives[placement.mesh]) {
       tree.instances.push_back({primitive, placement.node_name, placement.to_world});
-  if (tree.instances.empty())
+    }
+  }
+  if (tree.instances.empty()) {
     file.fail("", "holds no triangles in its default scene", "Export the tree as triangle meshes.");
+  }
   return tree;
 }
 

@@ -21,7 +21,8 @@ struct Elements {
 };
 
 std::size_t size_of(int component_type) {
-  return std::size_t(tinygltf::GetComponentSizeInBytes(std::uint32_t(component_type)));
+  return static_cast<std::size_t>(
+      tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(component_type)));
 }
 
 Elements elements_of(GltfFile& file, int view, std::size_t offset, Elements shape,
@@ -29,14 +30,16 @@ Elements elements_of(GltfFile& file, int view, std::size_t offset, Elements shap
   const std::size_t size = shape.components * size_of(shape.component_type);
   const ByteSpan bytes = view_bytes(file, view, place);
   if (shape.stride == 0) shape.stride = size;
-  if (shape.stride < size)
+  if (shape.stride < size) {
     file.fail(place, "byteStride " + std::to_string(shape.stride) + " is less than its elements' " +
                          std::to_string(size) + " bytes");
+  }
   if (shape.count > 0 && (offset > bytes.size() || size > bytes.size() - offset ||
-                          shape.count - 1 > (bytes.size() - offset - size) / shape.stride))
+                          shape.count - 1 > (bytes.size() - offset - size) / shape.stride)) {
     file.fail(place, std::to_string(shape.count) + " elements from byte " + std::to_string(offset) +
                          " do not fit in the " + std::to_string(bytes.size()) + " bytes of " +
                          place_of("bufferViews", view));
+  }
   shape.bytes = shape.count > 0 ? bytes.subspan(offset) : ByteSpan{};
   return shape;
 }
@@ -46,9 +49,11 @@ Out converted(const std::uint8_t* from, bool normalized) {
   T value;
   std::memcpy(&value, from, sizeof value);
   if constexpr (std::is_integral_v<T> && std::is_floating_point_v<Out>) {
-    if (normalized) return std::max(Out(value) / Out(std::numeric_limits<T>::max()), Out(-1));
+    if (normalized)
+      return std::max(static_cast<Out>(value) / static_cast<Out>(std::numeric_limits<T>::max()),
+                      Out{-1});
   }
-  return Out(value);
+  return static_cast<Out>(value);
 }
 
 template <class T, class Out>
@@ -58,9 +63,11 @@ void copy_as(const Elements& from, std::size_t first, std::size_t count, Out* ou
     std::memcpy(out, element, count * from.stride);
     return;
   }
-  for (std::size_t i = 0; i < count; ++i, element += from.stride)
-    for (int c = 0; c < from.components; ++c)
+  for (std::size_t i = 0; i < count; ++i, element += from.stride) {
+    for (int c = 0; c < from.components; ++c) {
       *out++ = converted<T, Out>(element + c * sizeof(T), from.normalized);
+    }
+  }
 }
 
 template <class Out>
@@ -78,10 +85,11 @@ void copy(const Elements& from, std::size_t first, std::size_t count, Out* out) 
   } else if (from.component_type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT) {
     return copy_as<std::uint32_t>(from, first, count, out);
   }
-  if (from.component_type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE)
+  if (from.component_type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE) {
     copy_as<std::uint8_t>(from, first, count, out);
-  else
+  } else {
     copy_as<std::uint16_t>(from, first, count, out);
+  }
 }
 
 bool is_index_type(int type) {
@@ -100,50 +108,56 @@ template <class Out>
 void put_sparse_values(GltfFile& file, const tinygltf::Accessor& accessor, Elements shape,
                        std::vector<Out>& out, const std::string& place) {
   const auto& sparse = accessor.sparse;
-  if (!is_index_type(sparse.indices.componentType))
+  if (!is_index_type(sparse.indices.componentType)) {
     file.fail(place, "its sparse indices are not unsigned integers");
-  if (std::size_t(sparse.count) > shape.count)
+  }
+  if (static_cast<std::size_t>(sparse.count) > shape.count) {
     file.fail(place, "has more sparse values than elements");
+  }
 
-  const auto count = std::size_t(sparse.count);
+  const auto count = static_cast<std::size_t>(sparse.count);
   const Elements index_elements = elements_of(
-      file, sparse.indices.bufferView, std::size_t(sparse.indices.byteOffset),
+      file, sparse.indices.bufferView, static_cast<std::size_t>(sparse.indices.byteOffset),
       {.count = count, .component_type = sparse.indices.componentType}, place + ", sparse indices");
   shape.count = count;
   shape.stride = 0;
-  const Elements values =
-      elements_of(file, sparse.values.bufferView, std::size_t(sparse.values.byteOffset), shape,
-                  place + ", sparse values");
+  const Elements values = elements_of(file, sparse.values.bufferView,
+                                      static_cast<std::size_t>(sparse.values.byteOffset), shape,
+                                      place + ", sparse values");
   std::vector<std::uint32_t> indices(count);
   copy(index_elements, 0, count, indices.data());
   for (std::size_t i = 0; i < count; ++i) {
-    if (indices[i] >= accessor.count)
+    if (indices[i] >= accessor.count) {
       file.fail(place, "sparse index " + std::to_string(indices[i]) + " is past its " +
                            std::to_string(accessor.count) + " elements");
-    copy(values, i, 1, out.data() + std::size_t(indices[i]) * shape.components);
+    }
+    copy(values, i, 1, out.data() + static_cast<std::size_t>(indices[i]) * shape.components);
   }
 }
 
 std::size_t bytes_at_hand(const GltfFile& file) {
-  return std::accumulate(file.buffers.begin(), file.buffers.end(), std::size_t(0),
+  return std::accumulate(file.buffers.begin(), file.buffers.end(), std::size_t{0},
                          [](std::size_t sum, ByteSpan b) { return sum + b.size(); });
 }
 
 template <class Out>
 std::vector<Out> read(GltfFile& file, int index, int type, const std::string& user) {
-  if (index < 0 || std::size_t(index) >= file.model.accessors.size())
-    file.fail(user, "there is no " + place_of("accessors", std::size_t(index)));
+  if (index < 0 || static_cast<std::size_t>(index) >= file.model.accessors.size()) {
+    file.fail(user, "there is no " + place_of("accessors", index));
+  }
   const std::string place = accessor_place(user, index);
-  const tinygltf::Accessor& accessor = file.model.accessors[std::size_t(index)];
-  if (accessor.type != type)
+  const tinygltf::Accessor& accessor = file.model.accessors[index];
+  if (accessor.type != type) {
     file.fail(place, type == TINYGLTF_TYPE_SCALAR
                          ? "its elements are not SCALAR"
                          : "its elements are not VEC" + std::to_string(type));
+  }
   constexpr bool wants_indices = !std::is_same_v<Out, float>;
   if (!(wants_indices ? is_index_type(accessor.componentType)
-                      : is_attribute_type(accessor.componentType)))
+                      : is_attribute_type(accessor.componentType))) {
     file.fail(place,
               "componentType " + std::to_string(accessor.componentType) + " is not allowed here");
+  }
 
   Elements shape{.count = accessor.count,
                  .components = type == TINYGLTF_TYPE_SCALAR ? 1 : type,
@@ -151,8 +165,9 @@ std::vector<Out> read(GltfFile& file, int index, int type, const std::string& us
                  .normalized = accessor.normalized};
   std::vector<Out> out;
   if (accessor.bufferView >= 0) {
-    if (std::size_t(accessor.bufferView) < file.model.bufferViews.size())
-      shape.stride = file.model.bufferViews[std::size_t(accessor.bufferView)].byteStride;
+    if (static_cast<std::size_t>(accessor.bufferView) < file.model.bufferViews.size()) {
+      shape.stride = file.model.bufferViews[accessor.bufferView].byteStride;
+    }
     const Elements elements =
         elements_of(file, accessor.bufferView, accessor.byteOffset, shape, place);
     out.resize(shape.count * shape.components);
@@ -170,33 +185,37 @@ std::vector<Out> read(GltfFile& file, int index, int type, const std::string& us
 template <class Vector>
 std::vector<Vector> read_vectors(GltfFile& file, int accessor, int size, const std::string& user) {
   const std::vector<float> floats = read<float>(file, accessor, size, user);
-  std::vector<Vector> vectors(floats.size() / std::size_t(size));
+  std::vector<Vector> vectors(floats.size() / static_cast<std::size_t>(size));
   static_assert(std::is_trivially_copyable_v<Vector>);
-  if (!floats.empty())
+  if (!floats.empty()) {
     std::memcpy(static_cast<void*>(vectors.data()), floats.data(), floats.size() * sizeof(float));
+  }
   return vectors;
 }
 
 }  // namespace
 
 ByteSpan view_bytes(GltfFile& file, int index, const std::string& user) {
-  if (index < 0 || std::size_t(index) >= file.model.bufferViews.size())
-    file.fail(user, "there is no " + place_of("bufferViews", std::size_t(index)));
-  const tinygltf::BufferView& view = file.model.bufferViews[std::size_t(index)];
+  if (index < 0 || static_cast<std::size_t>(index) >= file.model.bufferViews.size()) {
+    file.fail(user, "there is no " + place_of("bufferViews", index));
+  }
+  const tinygltf::BufferView& view = file.model.bufferViews[index];
   if (view.extensions.contains("EXT_meshopt_compression")) return meshopt_bytes(file, index);
   return buffer_bytes(file, view.buffer, view.byteOffset, view.byteLength,
-                      place_of("bufferViews", std::size_t(index)));
+                      place_of("bufferViews", index));
 }
 
 ByteSpan buffer_bytes(const GltfFile& file, int index, std::size_t offset, std::size_t length,
                       const std::string& place) {
-  if (index < 0 || std::size_t(index) >= file.buffers.size())
-    file.fail(place, "there is no " + place_of("buffers", std::size_t(index)));
-  const ByteSpan buffer = file.buffers[std::size_t(index)];
-  if (offset > buffer.size() || length > buffer.size() - offset)
+  if (index < 0 || static_cast<std::size_t>(index) >= file.buffers.size()) {
+    file.fail(place, "there is no " + place_of("buffers", index));
+  }
+  const ByteSpan buffer = file.buffers[index];
+  if (offset > buffer.size() || length > buffer.size() - offset) {
     file.fail(place, std::to_string(length) + " bytes from byte " + std::to_string(offset) +
                          " do not fit in the " + std::to_string(buffer.size()) + " bytes of " +
-                         place_of("buffers", std::size_t(index)));
+                         place_of("buffers", index));
+  }
   return buffer.subspan(offset, length);
 }
 
@@ -217,7 +236,7 @@ std::vector<std::uint32_t> read_indices(GltfFile& file, int accessor, const std:
 }
 
 std::string accessor_place(const std::string& user, int accessor) {
-  return user + " (" + place_of("accessors", std::size_t(accessor)) + ")";
+  return user + " (" + place_of("accessors", accessor) + ")";
 }
 
 }  // namespace leafhull

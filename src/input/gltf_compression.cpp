@@ -35,10 +35,12 @@ MeshoptView meshopt_view(const tinygltf::Value& extension) {
 // What meshoptimizer asserts. The least compressed sizes bound the memory by the file's length: two
 // bits for 16 bytes of an attribute, a byte for a triangle or an index.
 std::string_view defect(const MeshoptView& view) {
-  if (view.offset < 0 || view.length < 0 || view.stride < 0 || view.count < 0)
+  if (view.offset < 0 || view.length < 0 || view.stride < 0 || view.count < 0) {
     return "lacks a number, or has one that is too large";
-  const auto length = std::size_t(view.length), count = std::size_t(view.count);
-  const auto stride = std::size_t(view.stride);
+  }
+  const auto length = static_cast<std::size_t>(view.length),
+             count = static_cast<std::size_t>(view.count);
+  const auto stride = static_cast<std::size_t>(view.stride);
   const bool has_filter = !view.filter.empty() && view.filter != "NONE";
   if (view.mode == "ATTRIBUTES") {
     if (stride == 0 || stride > 256 || stride % 4 != 0) return "byteStride is not 4, 8, ... 256";
@@ -54,17 +56,21 @@ std::string_view defect(const MeshoptView& view) {
   if (view.filter == "OCTAHEDRAL" && stride != 4 && stride != 8) return "byteStride is not 4 or 8";
   if (view.filter == "QUATERNION" && stride != 8) return "byteStride is not 8";
   if (has_filter && view.filter != "OCTAHEDRAL" && view.filter != "QUATERNION" &&
-      view.filter != "EXPONENTIAL")
+      view.filter != "EXPONENTIAL") {
     return "has an unknown filter";
+  }
   return {};
 }
 
 int decode_meshopt(const MeshoptView& view, ByteSpan from, Bytes& to) {
-  const auto count = std::size_t(view.count), stride = std::size_t(view.stride);
-  if (view.mode == "TRIANGLES")
+  const auto count = static_cast<std::size_t>(view.count),
+             stride = static_cast<std::size_t>(view.stride);
+  if (view.mode == "TRIANGLES") {
     return meshopt_decodeIndexBuffer(to.data(), count, stride, from.data(), from.size());
-  if (view.mode == "INDICES")
+  }
+  if (view.mode == "INDICES") {
     return meshopt_decodeIndexSequence(to.data(), count, stride, from.data(), from.size());
+  }
   const int error = meshopt_decodeVertexBuffer(to.data(), count, stride, from.data(), from.size());
   if (view.filter == "OCTAHEDRAL") meshopt_decodeFilterOct(to.data(), count, stride);
   if (view.filter == "QUATERNION") meshopt_decodeFilterQuat(to.data(), count, stride);
@@ -82,16 +88,19 @@ template <class Vector>
 std::vector<Vector> draco_vectors(const GltfFile& file, const draco::Mesh& mesh, int id,
                                   const std::string& place) {
   constexpr int kComponents = sizeof(Vector) / sizeof(float);
-  const draco::PointAttribute* attribute = mesh.GetAttributeByUniqueId(std::uint32_t(id));
+  const draco::PointAttribute* attribute =
+      mesh.GetAttributeByUniqueId(static_cast<std::uint32_t>(id));
   if (!attribute || attribute->num_components() != kComponents ||
-      !is_attribute_type(attribute->data_type()))
+      !is_attribute_type(attribute->data_type())) {
     file.fail(place, "attribute " + std::to_string(id) + " is missing or of another type");
+  }
   std::vector<Vector> vectors(mesh.num_points());
   for (std::uint32_t point = 0; point < mesh.num_points(); ++point) {
     const auto index = attribute->mapped_index(draco::PointIndex(point));
     if (index.value() >= attribute->size() ||
-        !attribute->ConvertValue<float, kComponents>(index, &vectors[point].x))
+        !attribute->ConvertValue<float, kComponents>(index, &vectors[point].x)) {
       file.fail(place, "vertex " + std::to_string(point) + " cannot be decoded");
+    }
   }
   return vectors;
 }
@@ -100,16 +109,17 @@ std::vector<Vector> draco_vectors(const GltfFile& file, const draco::Mesh& mesh,
 
 ByteSpan meshopt_bytes(GltfFile& file, int index) {
   if (const auto found = file.decompressed_views.find(index);
-      found != file.decompressed_views.end())
+      found != file.decompressed_views.end()) {
     return found->second;
-  const std::string place = place_of("bufferViews", std::size_t(index)) + ", meshopt compression";
-  const tinygltf::BufferView& described = file.model.bufferViews[std::size_t(index)];
+  }
+  const std::string place = place_of("bufferViews", index) + ", meshopt compression";
+  const tinygltf::BufferView& described = file.model.bufferViews[index];
   const MeshoptView view =
       meshopt_view(*find_extension(described.extensions, "EXT_meshopt_compression"));
   if (const std::string_view wrong = defect(view); !wrong.empty()) file.fail(place, wrong);
-  const ByteSpan compressed =
-      buffer_bytes(file, view.buffer, std::size_t(view.offset), std::size_t(view.length), place);
-  Bytes bytes(std::size_t(view.count) * std::size_t(view.stride));
+  const ByteSpan compressed = buffer_bytes(file, view.buffer, static_cast<std::size_t>(view.offset),
+                                           static_cast<std::size_t>(view.length), place);
+  Bytes bytes(static_cast<std::size_t>(view.count) * static_cast<std::size_t>(view.stride));
   if (decode_meshopt(view, compressed, bytes) != 0) file.fail(place, "the data cannot be decoded");
   return file.decompressed_views[index] = std::move(bytes);
 }
@@ -124,8 +134,9 @@ void decode_draco(const GltfFile& file, ByteSpan data, const DracoAttributes& at
   const draco::Mesh& mesh = *decoded.value();
 
   primitive.positions = draco_vectors<Vec3f>(file, mesh, attributes.position, place);
-  if (attributes.normal >= 0)
+  if (attributes.normal >= 0) {
     primitive.normals = draco_vectors<Vec3f>(file, mesh, attributes.normal, place);
+  }
   if (attributes.uv >= 0) primitive.uvs = draco_vectors<Vec2f>(file, mesh, attributes.uv, place);
   primitive.triangles.reserve(mesh.num_faces());
   for (std::uint32_t i = 0; i < mesh.num_faces(); ++i) {

@@ -16,7 +16,7 @@ using nlohmann::json;
 
 // What recurses over the document stays far from the end of the stack.
 constexpr int kDeepestNesting = 64;
-constexpr std::int64_t kLargestOffset = std::int64_t(1) << 53;  // exact in every JSON reader
+constexpr std::int64_t kLargestOffset = std::int64_t{1} << 53;  // exact in every JSON reader
 
 constexpr std::array kReadExtensions = {
     "EXT_mesh_gpu_instancing",    "EXT_meshopt_compression", "EXT_texture_webp",
@@ -47,14 +47,15 @@ int nesting(std::string_view text) {
   bool in_string = false;
   for (std::size_t i = 0; i < text.size(); ++i) {
     const char c = text[i];
-    if (in_string && c == '\\')
+    if (in_string && c == '\\') {
       ++i;
-    else if (c == '"')
+    } else if (c == '"') {
       in_string = !in_string;
-    else if (!in_string && (c == '[' || c == '{'))
+    } else if (!in_string && (c == '[' || c == '{')) {
       deepest = std::max(deepest, ++depth);
-    else if (!in_string && (c == ']' || c == '}'))
+    } else if (!in_string && (c == ']' || c == '}')) {
       --depth;
+    }
   }
   return deepest;
 }
@@ -81,13 +82,15 @@ class DocumentCheck {
 
   void check_version() const {
     if (!document_.is_object() || !document_.contains("asset") || !document_["asset"].is_object() ||
-        !document_["asset"].contains("version") || !document_["asset"]["version"].is_string())
+        !document_["asset"].contains("version") || !document_["asset"]["version"].is_string()) {
       fail("", "this JSON is not a glTF document (it has no asset.version)",
            "Give a .glb, .gltf or .obj file.");
+    }
     const auto version = document_["asset"]["version"].get<std::string>();
-    if (!version.starts_with("2."))
+    if (!version.starts_with("2.")) {
       fail("asset", "glTF version " + in_quotes(version) + " is not read, only 2.x",
            "Convert the file to glTF 2.0.");
+    }
   }
 
   void check_required_extensions() const {
@@ -95,9 +98,10 @@ class DocumentCheck {
     for (const json& entry : document_["extensionsRequired"]) {
       const std::string name = entry.is_string() ? entry.get<std::string>() : entry.dump();
       const auto is_prefix = [&](std::string_view prefix) { return name.starts_with(prefix); };
-      if (!is_read_extension(name) && std::ranges::none_of(kHarmlessExtensions, is_prefix))
+      if (!is_read_extension(name) && std::ranges::none_of(kHarmlessExtensions, is_prefix)) {
         fail("extensionsRequired", in_quotes(name) + " is not supported",
              "Export the tree without this extension.");
+      }
     }
   }
 
@@ -114,18 +118,20 @@ class DocumentCheck {
 
   // tinygltf passes over numbers of the wrong kind and cuts large ones to 32 bits.
   void check_object(json& value, const std::string& place) {
-    if (value.is_array())
+    if (value.is_array()) {
       for (json& element : value) check_object(element, place);
+    }
     if (!value.is_object()) return;
     value.erase("extras");
     take_out_unread_extensions(value);
     for (auto& [key, member] : value.items()) {
-      if (std::ranges::find(kWholeNumbers, key) != kWholeNumbers.end())
+      if (std::ranges::find(kWholeNumbers, key) != kWholeNumbers.end()) {
         check_whole_numbers(value, key, place);
-      else if (key == "attributes")
+      } else if (key == "attributes") {
         for (auto& [name, accessor] : member.items()) check_whole_number(accessor, name, place);
-      else if (key == "children" || (key == "nodes" && member.is_array()))
+      } else if (key == "children" || (key == "nodes" && member.is_array())) {
         for (const json& node : member) check_whole_number(node, key, place);
+      }
       check_object(member, place);
     }
   }
@@ -133,8 +139,9 @@ class DocumentCheck {
   static void take_out_unread_extensions(json& value) {
     if (!value.contains("extensions")) return;
     json read = json::object();
-    for (auto& [name, extension] : value["extensions"].items())
+    for (auto& [name, extension] : value["extensions"].items()) {
       if (is_read_extension(name) && extension.is_object()) read[name] = std::move(extension);
+    }
     value["extensions"] = std::move(read);
   }
 
@@ -151,9 +158,10 @@ class DocumentCheck {
                           const std::string& place) const {
     const bool wide = place.starts_with("buffer") && key.starts_with("byte");
     const std::uint64_t largest = wide ? kLargestOffset : INT_MAX;
-    if (!number.is_number_unsigned() || number.get<std::uint64_t>() > largest)
+    if (!number.is_number_unsigned() || number.get<std::uint64_t>() > largest) {
       fail(place, printable(key) + " is " + printable(number.dump()) +
                       ", not a whole number from 0 to " + std::to_string(largest));
+    }
   }
 
   void check_node_numbers() const {
@@ -172,18 +180,21 @@ class DocumentCheck {
     if (!object.contains(key)) return;
     const json& list = object[key];
     const auto is_number = [](const json& v) { return v.is_number(); };
-    if (!list.is_array() || list.size() != size || !std::ranges::all_of(list, is_number))
+    if (!list.is_array() || list.size() != size || !std::ranges::all_of(list, is_number)) {
       fail(place, key + " is not " + std::to_string(size) + " numbers");
+    }
   }
 
   // The compressed data brings its own, and tinygltf refuses accessors without data.
   void take_out_draco_indices() {
     for (json& mesh : document_["meshes"]) {
       if (!mesh.contains("primitives")) continue;
-      for (json& primitive : mesh["primitives"])
+      for (json& primitive : mesh["primitives"]) {
         if (primitive.is_object() && primitive.contains("extensions") &&
-            primitive["extensions"].contains("KHR_draco_mesh_compression"))
+            primitive["extensions"].contains("KHR_draco_mesh_compression")) {
           primitive.erase("indices");
+        }
+      }
     }
   }
 
@@ -194,8 +205,9 @@ class DocumentCheck {
 }  // namespace
 
 json parse_document(std::string_view text, const std::string& file) {
-  if (nesting(text) > kDeepestNesting)
+  if (nesting(text) > kDeepestNesting) {
     input_error(file, "JSON", "is nested more than " + std::to_string(kDeepestNesting) + " deep");
+  }
   json document;
   try {
     document = json::parse(text);

@@ -21,7 +21,8 @@ struct Chunks {
 };
 
 std::uint32_t little_endian(ByteSpan bytes, std::size_t at) {
-  return bytes[at] | bytes[at + 1] << 8 | bytes[at + 2] << 16 | std::uint32_t(bytes[at + 3]) << 24;
+  return bytes[at] | bytes[at + 1] << 8 | bytes[at + 2] << 16 |
+         static_cast<std::uint32_t>(bytes[at + 3]) << 24;
 }
 
 // glTF 2.0, section 4 "GLB File Format Specification".
@@ -30,15 +31,17 @@ Chunks split_glb(ByteSpan bytes, const std::string& file) {
       "The file is cut off or damaged: copy or export it again.";
   if (bytes.size() < 20) input_error(file, "GLB header", "is cut off", kCopyAgain);
   const std::uint32_t version = little_endian(bytes, 4);
-  if (version != 2)
+  if (version != 2) {
     input_error(file, "GLB header", "version " + std::to_string(version) + " is not read, only 2",
                 "Convert the file to glTF 2.0.");
+  }
   const std::uint32_t length = little_endian(bytes, 8);
-  if (length != bytes.size())
+  if (length != bytes.size()) {
     input_error(
         file, "GLB header",
         "says " + std::to_string(length) + " bytes, the file has " + std::to_string(bytes.size()),
         kCopyAgain);
+  }
 
   Chunks chunks;
   for (std::size_t at = 12, index = 0; at < bytes.size(); ++index) {
@@ -47,11 +50,12 @@ Chunks split_glb(ByteSpan bytes, const std::string& file) {
     const std::uint32_t size = little_endian(bytes, at);
     const std::uint32_t type = little_endian(bytes, at + 4);
     at += 8;
-    if (size > bytes.size() - at)
+    if (size > bytes.size() - at) {
       input_error(file, place,
                   "says " + std::to_string(size) + " bytes, " + std::to_string(bytes.size() - at) +
                       " are left",
                   kCopyAgain);
+    }
     if (index == 0 && type != kJsonChunk) input_error(file, place, "is not JSON", kCopyAgain);
     if (index == 0) chunks.json = text_of(bytes.subspan(at, size));
     if (index == 1 && type == kBinaryChunk) chunks.binary = bytes.subspan(at, size);
@@ -84,9 +88,10 @@ void load_buffers(GltfFile& file, const json& buffers, ByteSpan binary) {
     } else {
       file.fail(place, "has neither a uri nor a binary chunk");
     }
-    if (bytes.size() < length)
+    if (bytes.size() < length) {
       file.fail(place, "needs " + std::to_string(length) + " bytes and has " +
                            std::to_string(bytes.size()));
+    }
     file.buffers.push_back(bytes.first(length));
   }
 }
@@ -133,13 +138,15 @@ Bytes load_uri(const GltfFile& file, const std::string& uri, const std::string& 
   if (uri.starts_with("data:")) {
     Bytes bytes;
     std::string mime_type;
-    if (!tinygltf::DecodeDataURI(&bytes, mime_type, uri, 0, false))
+    if (!tinygltf::DecodeDataURI(&bytes, mime_type, uri, 0, false)) {
       file.fail(place, "the data URI " + in_quotes(uri.substr(0, 40)) + " cannot be decoded");
+    }
     return bytes;
   }
-  if (!file.folder || uri.find("://") != std::string::npos)
+  if (!file.folder || uri.find("://") != std::string::npos) {
     file.fail(place, in_quotes(uri) + " is outside the file and not looked for",
               "Put everything into one .glb file.");
+  }
   const std::filesystem::path path = *file.folder / percent_decoded(uri);
   try {
     return read_file(path);

@@ -46,9 +46,11 @@ Wrap wrap(int mode) {
 // A texture may name one image that every reader knows, or only one that few do.
 int source_of(const tinygltf::Texture& texture) {
   if (texture.source >= 0) return texture.source;
-  for (const char* name : {"EXT_texture_webp", "KHR_texture_basisu"})
-    if (const auto* extension = find_extension(texture.extensions, name))
+  for (const char* name : {"EXT_texture_webp", "KHR_texture_basisu"}) {
+    if (const auto* extension = find_extension(texture.extensions, name)) {
       return integer(*extension, "source", -1);
+    }
+  }
   return -1;
 }
 
@@ -59,7 +61,8 @@ void TextureMapping::apply(std::vector<Vec2f>& uvs) const {
   const double c = std::cos(rotation), s = std::sin(rotation);
   for (Vec2f& uv : uvs) {
     const double u = scale.x * uv.x, v = scale.y * uv.y;
-    uv = {float(offset.x + c * u + s * v), float(offset.y - s * u + c * v)};
+    uv = {static_cast<float>(offset.x + c * u + s * v),
+          static_cast<float>(offset.y - s * u + c * v)};
   }
 }
 
@@ -86,8 +89,9 @@ MaterialReader::BaseColor MaterialReader::read_base_color(const tinygltf::Materi
                        find_extension(pbr.baseColorTexture.extensions, "KHR_texture_transform"))};
   }
   const tinygltf::Value& factor = glossy->Get("diffuseFactor");
-  if (factor.IsArray())
-    for (int i = 0; i < 4; ++i) to.base_color[std::size_t(i)] = float(number(factor, i, 1));
+  if (factor.IsArray()) {
+    for (int i = 0; i < 4; ++i) to.base_color[i] = static_cast<float>(number(factor, i, 1));
+  }
   const tinygltf::Value& texture = glossy->Get("diffuseTexture");
   if (!texture.IsObject()) return {};
   const tinygltf::Value& extensions = texture.Get("extensions");
@@ -99,23 +103,26 @@ MaterialReader::BaseColor MaterialReader::read_base_color(const tinygltf::Materi
 
 TextureMapping MaterialReader::use(int index, const std::string& user) {
   if (index < 0) return {};
-  if (std::size_t(index) >= tree_.materials.size())
-    file_.fail(user, "there is no " + place_of("materials", std::size_t(index)));
-  Material& material = tree_.materials[std::size_t(index)];
-  const BaseColor& base_color = base_colors_[std::size_t(index)];
-  if (base_color.texture >= 0 && material.base_color_image < 0)
+  if (static_cast<std::size_t>(index) >= tree_.materials.size()) {
+    file_.fail(user, "there is no " + place_of("materials", index));
+  }
+  Material& material = tree_.materials[index];
+  const BaseColor& base_color = base_colors_[index];
+  if (base_color.texture >= 0 && material.base_color_image < 0) {
     material.base_color_image =
-        image_of(base_color.texture, material, place_of("materials", std::size_t(index)));
+        image_of(base_color.texture, material, place_of("materials", index));
+  }
   return base_color.mapping;
 }
 
 int MaterialReader::image_of(int index, Material& material, const std::string& place) {
   const tinygltf::Model& model = file_.model;
-  if (std::size_t(index) >= model.textures.size())
-    file_.fail(place, "there is no " + place_of("textures", std::size_t(index)));
-  const tinygltf::Texture& texture = model.textures[std::size_t(index)];
-  if (texture.sampler >= 0 && std::size_t(texture.sampler) < model.samplers.size()) {
-    const tinygltf::Sampler& sampler = model.samplers[std::size_t(texture.sampler)];
+  if (static_cast<std::size_t>(index) >= model.textures.size()) {
+    file_.fail(place, "there is no " + place_of("textures", index));
+  }
+  const tinygltf::Texture& texture = model.textures[index];
+  if (texture.sampler >= 0 && static_cast<std::size_t>(texture.sampler) < model.samplers.size()) {
+    const tinygltf::Sampler& sampler = model.samplers[texture.sampler];
     material.wrap_u = wrap(sampler.wrapS);
     material.wrap_v = wrap(sampler.wrapT);
   }
@@ -123,23 +130,25 @@ int MaterialReader::image_of(int index, Material& material, const std::string& p
 }
 
 int MaterialReader::read_image(int index) {
-  const auto [entry, is_new] = images_.emplace(index, int(tree_.images.size()));
+  const auto [entry, is_new] = images_.emplace(index, static_cast<int>(tree_.images.size()));
   if (!is_new) return entry->second;
-  const std::string place = place_of("images", std::size_t(index));
+  const std::string place = place_of("images", index);
   Image image;
   std::string reason;
-  if (index < 0 || std::size_t(index) >= file_.model.images.size()) {
+  if (index < 0 || static_cast<std::size_t>(index) >= file_.model.images.size()) {
     reason = "there is no such image";
-  } else
+  } else {
     try {
-      const tinygltf::Image& source = file_.model.images[std::size_t(index)];
-      if (source.bufferView >= 0)
+      const tinygltf::Image& source = file_.model.images[index];
+      if (source.bufferView >= 0) {
         image = decode_image(view_bytes(file_, source.bufferView, place), source.name, reason);
-      else
+      } else {
         image = decode_image(load_uri(file_, source.uri, place), source.uri, reason);
+      }
     } catch (const Error& error) {
       reason = error.what();
     }
+  }
   if (!reason.empty()) tree_.warnings.push_back(place + ": texture not read: " + reason);
   tree_.images.push_back(std::move(image));
   return entry->second;

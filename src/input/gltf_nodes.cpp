@@ -14,11 +14,12 @@ using Quaternion = std::array<double, 4>;  // x, y, z, w
 
 Transform operator*(const Transform& a, const Transform& b) {
   Transform product{};
-  for (int row = 0; row < 3; ++row)
+  for (int row = 0; row < 3; ++row) {
     for (int column = 0; column < 4; ++column) {
       product[row][column] = column == 3 ? a[row][3] : 0;
       for (int k = 0; k < 3; ++k) product[row][column] += a[row][k] * b[k][column];
     }
+  }
   return product;
 }
 
@@ -34,18 +35,22 @@ Transform compose(Vec3d t, Quaternion q, Vec3d s) {
 }
 
 bool is_finite(const Transform& transform) {
-  for (const auto& row : transform)
-    for (const double entry : row)
+  for (const auto& row : transform) {
+    for (const double entry : row) {
       if (!std::isfinite(entry)) return false;
+    }
+  }
   return true;
 }
 
 Transform local_transform(const tinygltf::Node& node) {
   if (!node.matrix.empty()) {
     Transform rows{};
-    for (std::size_t row = 0; row < 3; ++row)
-      for (std::size_t column = 0; column < 4; ++column)
+    for (std::size_t row = 0; row < 3; ++row) {
+      for (std::size_t column = 0; column < 4; ++column) {
         rows[row][column] = node.matrix[4 * column + row];
+      }
+    }
     return rows;
   }
   const auto vec3 = [](const std::vector<double>& v, Vec3d missing) {
@@ -72,8 +77,9 @@ std::vector<Transform> copies_of(GltfFile& file, const tinygltf::Value& extensio
   if (scale >= 0) scales = read_vec3(file, scale, place + ", SCALE");
   const std::size_t count = std::max({translations.size(), rotations.size(), scales.size()});
   if ((translation >= 0 && translations.size() != count) ||
-      (rotation >= 0 && rotations.size() != count) || (scale >= 0 && scales.size() != count))
+      (rotation >= 0 && rotations.size() != count) || (scale >= 0 && scales.size() != count)) {
     file.fail(place, "its attributes differ in count");
+  }
 
   std::vector<Transform> copies;
   copies.reserve(count);
@@ -82,26 +88,33 @@ std::vector<Transform> copies_of(GltfFile& file, const tinygltf::Value& extensio
     if (rotation >= 0) std::ranges::copy(rotations[i], q.begin());
     copies.push_back(compose(translation >= 0 ? Vec3d(translations[i]) : Vec3d(0, 0, 0), q,
                              scale >= 0 ? Vec3d(scales[i]) : Vec3d(1, 1, 1)));
-    if (!is_finite(copies.back()))
+    if (!is_finite(copies.back())) {
       file.fail(place, "copy " + std::to_string(i) + " has a transform that is not finite");
+    }
   }
   return copies;
 }
 
 std::vector<int> root_nodes(const GltfFile& file) {
   const tinygltf::Model& model = file.model;
-  if (model.defaultScene >= 0 && std::size_t(model.defaultScene) >= model.scenes.size())
-    file.fail("scene", "there is no " + place_of("scenes", std::size_t(model.defaultScene)));
-  if (!model.scenes.empty())
-    return model.scenes[std::size_t(std::max(model.defaultScene, 0))].nodes;
+  if (model.defaultScene >= 0 &&
+      static_cast<std::size_t>(model.defaultScene) >= model.scenes.size()) {
+    file.fail("scene", "there is no " + place_of("scenes", model.defaultScene));
+  }
+  if (!model.scenes.empty()) {
+    return model.scenes[static_cast<std::size_t>(std::max(model.defaultScene, 0))].nodes;
+  }
 
   std::vector<bool> is_child(model.nodes.size(), false);
-  for (const tinygltf::Node& node : model.nodes)
-    for (const int child : node.children)
-      if (std::size_t(child) < is_child.size()) is_child[std::size_t(child)] = true;
+  for (const tinygltf::Node& node : model.nodes) {
+    for (const int child : node.children) {
+      if (static_cast<std::size_t>(child) < is_child.size()) is_child[child] = true;
+    }
+  }
   std::vector<int> roots;
-  for (std::size_t i = 0; i < is_child.size(); ++i)
-    if (!is_child[i]) roots.push_back(int(i));
+  for (std::size_t i = 0; i < is_child.size(); ++i) {
+    if (!is_child[i]) roots.push_back(static_cast<int>(i));
+  }
   return roots;
 }
 
@@ -123,24 +136,30 @@ std::vector<Placement> place_meshes(GltfFile& file) {
   while (!stack.empty()) {
     const auto [index, parent] = stack.back();
     stack.pop_back();
-    const std::string place = place_of("nodes", std::size_t(index));
-    if (std::size_t(index) >= visited.size()) file.fail("nodes", "there is no " + place);
-    if (visited[std::size_t(index)])
+    const std::string place = place_of("nodes", index);
+    if (static_cast<std::size_t>(index) >= visited.size())
+      file.fail("nodes", "there is no " + place);
+    if (visited[index]) {
       file.fail(place, "is reached twice: the nodes have a cycle or a node has two parents");
-    visited[std::size_t(index)] = true;
+    }
+    visited[index] = true;
 
-    const tinygltf::Node& node = file.model.nodes[std::size_t(index)];
+    const tinygltf::Node& node = file.model.nodes[index];
     const Transform to_world = parent * local_transform(node);
     if (!is_finite(to_world)) file.fail(place, "has a transform that is not finite");
     push(node.children, to_world);
     if (node.mesh < 0) continue;
-    if (std::size_t(node.mesh) >= file.model.meshes.size())
-      file.fail(place, "there is no " + place_of("meshes", std::size_t(node.mesh)));
-    if (const auto* extension = find_extension(node.extensions, "EXT_mesh_gpu_instancing"))
-      for (const Transform& copy : copies_of(file, *extension, place + ", EXT_mesh_gpu_instancing"))
+    if (static_cast<std::size_t>(node.mesh) >= file.model.meshes.size()) {
+      file.fail(place, "there is no " + place_of("meshes", node.mesh));
+    }
+    if (const auto* extension = find_extension(node.extensions, "EXT_mesh_gpu_instancing")) {
+      for (const Transform& copy :
+           copies_of(file, *extension, place + ", EXT_mesh_gpu_instancing")) {
         placements.push_back({node.mesh, node.name, to_world * copy});
-    else
+      }
+    } else {
       placements.push_back({node.mesh, node.name, to_world});
+    }
   }
   return placements;
 }

@@ -22,8 +22,9 @@ std::vector<Triangle> triangles_of(const std::vector<std::uint32_t>& vertices, i
   const std::size_t count = vertices.size();
   if (mode == TINYGLTF_MODE_TRIANGLES) {
     triangles.reserve(count / 3);
-    for (std::size_t i = 0; i + 2 < count; i += 3)
+    for (std::size_t i = 0; i + 2 < count; i += 3) {
       triangles.push_back({vertices[i], vertices[i + 1], vertices[i + 2]});
+    }
     return triangles;
   }
   for (std::size_t i = 0; i + 2 < count; ++i) {
@@ -33,8 +34,9 @@ std::vector<Triangle> triangles_of(const std::vector<std::uint32_t>& vertices, i
             ? Triangle{vertices[i], vertices[i + 1 + odd], vertices[i + 2 - odd]}
             : Triangle{vertices[i + 1], vertices[i + 2], vertices[0]};
     // Strips repeat a vertex to start anew.
-    if (triangle[0] != triangle[1] && triangle[1] != triangle[2] && triangle[2] != triangle[0])
+    if (triangle[0] != triangle[1] && triangle[1] != triangle[2] && triangle[2] != triangle[0]) {
       triangles.push_back(triangle);
+    }
   }
   return triangles;
 }
@@ -48,8 +50,9 @@ int attribute(const tinygltf::Primitive& source, const std::string& name) {
 void drop_unused_vertices(Primitive& primitive) {
   constexpr std::uint32_t kUnused = ~0u;
   std::vector<std::uint32_t> renumbered(primitive.positions.size(), kUnused);
-  for (const Triangle& triangle : primitive.triangles)
+  for (const Triangle& triangle : primitive.triangles) {
     for (const std::uint32_t vertex : triangle) renumbered[vertex] = 0;
+  }
   if (std::ranges::find(renumbered, kUnused) == renumbered.end()) return;
 
   std::uint32_t kept = 0;
@@ -63,8 +66,9 @@ void drop_unused_vertices(Primitive& primitive) {
   primitive.positions.resize(kept);
   if (!primitive.normals.empty()) primitive.normals.resize(kept);
   if (!primitive.uvs.empty()) primitive.uvs.resize(kept);
-  for (Triangle& triangle : primitive.triangles)
+  for (Triangle& triangle : primitive.triangles) {
     for (std::uint32_t& vertex : triangle) vertex = renumbered[vertex];
+  }
 }
 
 class PrimitiveReader {
@@ -76,10 +80,11 @@ class PrimitiveReader {
   void read(Primitive& primitive, int uv_set) {
     const std::string uv_name = "TEXCOORD_" + std::to_string(uv_set);
     if (attribute(source_, "POSITION") < 0) file_.fail(place_, "has no POSITION");
-    if (const auto* draco = find_extension(source_.extensions, "KHR_draco_mesh_compression"))
+    if (const auto* draco = find_extension(source_.extensions, "KHR_draco_mesh_compression")) {
       read_draco(*draco, uv_name, primitive);
-    else
+    } else {
       read_accessors(uv_name, primitive);
+    }
     check(primitive);
   }
 
@@ -97,10 +102,12 @@ class PrimitiveReader {
 
   void read_accessors(const std::string& uv_name, Primitive& primitive) {
     primitive.positions = read_vec3(file_, attribute(source_, "POSITION"), place_ + ", POSITION");
-    if (const int accessor = attribute(source_, "NORMAL"); accessor >= 0)
+    if (const int accessor = attribute(source_, "NORMAL"); accessor >= 0) {
       primitive.normals = read_vec3(file_, accessor, place_ + ", NORMAL");
-    if (const int accessor = attribute(source_, uv_name); accessor >= 0)
+    }
+    if (const int accessor = attribute(source_, uv_name); accessor >= 0) {
       primitive.uvs = read_vec2(file_, accessor, place_ + ", " + uv_name);
+    }
     std::vector<std::uint32_t> vertices;
     if (source_.indices >= 0) {
       vertices = read_indices(file_, source_.indices, place_ + ", indices");
@@ -108,9 +115,10 @@ class PrimitiveReader {
       vertices.resize(primitive.positions.size());
       std::iota(vertices.begin(), vertices.end(), 0u);
     }
-    if (source_.mode == TINYGLTF_MODE_TRIANGLES && vertices.size() % 3 != 0)
+    if (source_.mode == TINYGLTF_MODE_TRIANGLES && vertices.size() % 3 != 0) {
       file_.fail(place_, "its " + std::to_string(vertices.size()) +
                              " indices or vertices are not three per triangle");
+    }
     primitive.triangles = triangles_of(vertices, source_.mode);
   }
 
@@ -118,16 +126,20 @@ class PrimitiveReader {
     const std::size_t count = primitive.positions.size();
     const auto bad =
         std::ranges::find_if_not(primitive.positions, [](Vec3f p) { return is_finite(p); });
-    if (bad != primitive.positions.end())
+    if (bad != primitive.positions.end()) {
       file_.fail(place_,
                  "the POSITION of vertex " + std::to_string(bad - primitive.positions.begin()) +
                      " in mesh " + in_quotes(primitive.mesh_name) + " is not finite",
                  "Repair the mesh in the program that made it, then export it again.");
-    for (const Triangle& triangle : primitive.triangles)
-      for (const std::uint32_t vertex : triangle)
-        if (vertex >= count)
+    }
+    for (const Triangle& triangle : primitive.triangles) {
+      for (const std::uint32_t vertex : triangle) {
+        if (vertex >= count) {
           file_.fail(place_, "index " + std::to_string(vertex) + " is past its " +
                                  std::to_string(count) + " vertices");
+        }
+      }
+    }
     check_attribute(primitive.normals, count, "normals");
     check_attribute(primitive.uvs, count, "texture coordinates");
   }
@@ -135,9 +147,10 @@ class PrimitiveReader {
   template <class Vector>
   void check_attribute(std::vector<Vector>& values, std::size_t count, const std::string& what) {
     if (values.empty()) return;
-    if (values.size() != count)
+    if (values.size() != count) {
       file_.fail(place_, "has " + std::to_string(values.size()) + ' ' + what + " for " +
                              std::to_string(count) + " vertices");
+    }
     if (std::ranges::all_of(values, [](Vector v) { return is_finite(v); })) return;
     warnings_.push_back(place_ + ": its " + what + " are not finite and were passed over");
     values.clear();
@@ -156,8 +169,9 @@ std::optional<Primitive> read_primitive(GltfFile& file, std::size_t mesh, std::s
                                         std::vector<std::string>& warnings) {
   const tinygltf::Primitive& source = file.model.meshes[mesh].primitives[index];
   const std::string place = place_of("meshes", mesh) + '.' + place_of("primitives", index);
-  if (source.mode > TINYGLTF_MODE_TRIANGLE_FAN)
+  if (source.mode > TINYGLTF_MODE_TRIANGLE_FAN) {
     file.fail(place, "mode " + std::to_string(source.mode) + " is unknown");
+  }
   if (source.mode < TINYGLTF_MODE_TRIANGLES) {
     warnings.push_back(place + ": points or lines were passed over");
     return std::nullopt;

@@ -35,7 +35,7 @@ Image decode_image(ByteSpan bytes, const std::string& name, std::string& reason)
     reason = stbi_failure_reason();
     return {};
   }
-  const std::int64_t pixels = std::int64_t(image.width) * image.height;
+  const std::int64_t pixels = static_cast<std::int64_t>(image.width) * image.height;
   if (pixels > kMostPixels) {
     reason = "it is larger than 8192 x 8192 pixels";
     return {};

@@ -15,8 +15,9 @@ void input_error(std::string_view file, std::string_view place, std::string_view
 std::string printable(std::string_view text, std::size_t longest) {
   const bool cut = text.size() > longest;
   std::string line(text.substr(0, longest));
-  for (char& c : line)
+  for (char& c : line) {
     if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = ' ';
+  }
   return cut ? line + "..." : line;
 }
 

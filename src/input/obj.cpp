@@ -38,10 +38,11 @@ void check_positions(std::string_view text, const std::string& file) {
     const std::size_t end = std::min(text.find('\n'), text.size() - 1);
     const std::string_view line = text.substr(0, end);
     if (line.starts_with("v ") &&
-        line.find_first_not_of("+-.0123456789eE \t\r", 1) != std::string_view::npos)
+        line.find_first_not_of("+-.0123456789eE \t\r", 1) != std::string_view::npos) {
       input_error(file, "line " + std::to_string(number),
                   in_quotes(line) + " is not a vertex of finite numbers",
                   "Repair the mesh in the program that made it, then export it again.");
+    }
     text.remove_prefix(end + 1);
   }
 }
@@ -63,7 +64,7 @@ class Collector {
     };
     callback.texcoord_cb = [](void* self, auto u, auto v, auto) { of(self).uvs.push_back({u, v}); };
     callback.index_cb = [](void* self, tinyobj_double::index_t* corners, int count) {
-      of(self).add_face({corners, std::size_t(count)});
+      of(self).add_face({corners, static_cast<std::size_t>(count)});
     };
     callback.usemtl_cb = [](void* self, const char* rest_of_line, int) {
       const std::string name = rest_of_line;
@@ -98,31 +99,34 @@ class Collector {
     ++face_count_;
     if (corners.size() < 3) return;
     Part& part = current_part();
-    for (const tinyobj_double::index_t& corner : corners)
+    for (const tinyobj_double::index_t& corner : corners) {
       part.corners.push_back({index(corner.vertex_index, positions.size(), true),
                               index(corner.texcoord_index, uvs.size(), false),
                               index(corner.normal_index, normals.size(), false)});
+    }
     part.faces.push_back(part.corners.size());
   }
 
   // Counts from one, or back from the last; zero stands for nothing.
   int index(int written, std::size_t count, bool required) const {
-    const std::int64_t index =
-        written < 0 ? std::int64_t(count) + written : std::int64_t(written) - 1;
-    if ((written == 0 && required) || index < -1 || (written < 0 && index < 0))
+    const std::int64_t index = written < 0 ? static_cast<std::int64_t>(count) + written
+                                           : static_cast<std::int64_t>(written) - 1;
+    if ((written == 0 && required) || index < -1 || (written < 0 && index < 0)) {
       input_error(file_, "face " + std::to_string(face_count_),
                   "index " + std::to_string(written) + " names no vertex");
-    return int(index);
+    }
+    return static_cast<int>(index);
   }
 
   Part& current_part() {
     if (!part_) {
       const auto [entry, is_new] =
           numbers_.emplace(std::tuple(object_, group_, material_), parts.size());
-      if (is_new)
+      if (is_new) {
         parts.push_back({.mesh_name = group_.empty() ? object_ : group_,
                          .node_name = object_.empty() ? group_ : object_,
                          .material = material_});
+      }
       part_ = &parts[entry->second];
     }
     return *part_;
@@ -146,23 +150,29 @@ class PrimitiveMaker {
   /// Zero, or the middle of a tree so far out that floats would lose its shape.
   Vec3d origin() const {
     Box box;
-    for (const Part& part : obj_.parts)
+    for (const Part& part : obj_.parts) {
       for (const Corner& corner : part.corners) box.include(obj_.positions[corner.position]);
+    }
     const Vec3d middle = (box.low + box.high) / 2;
     return length(middle) > 16 * box.longest_side() ? middle : Vec3d{};
   }
 
   void check(const Part& part) const {
-    const auto inside = [](int index, std::size_t count) { return index < std::int64_t(count); };
+    const auto inside = [](int index, std::size_t count) {
+      return index < static_cast<std::int64_t>(count);
+    };
     for (const Corner& corner : part.corners) {
       if (!inside(corner.position, obj_.positions.size()) || !inside(corner.uv, obj_.uvs.size()) ||
-          !inside(corner.normal, obj_.normals.size()))
+          !inside(corner.normal, obj_.normals.size())) {
         input_error(file_, "a face of " + in_quotes(part.mesh_name),
                     "index past the vertices, normals or texture coordinates of the file");
+      }
       const Vec3d p = obj_.positions[corner.position];
-      if (!std::isfinite(float(p.x)) || !std::isfinite(float(p.y)) || !std::isfinite(float(p.z)))
+      if (!std::isfinite(static_cast<float>(p.x)) || !std::isfinite(static_cast<float>(p.y)) ||
+          !std::isfinite(static_cast<float>(p.z))) {
         input_error(file_, "vertex " + std::to_string(corner.position + 1), "is not finite",
                     "Repair the mesh in the program that made it, then export it again.");
+      }
     }
   }
 
@@ -174,7 +184,8 @@ class PrimitiveMaker {
     const bool has_uvs = std::ranges::all_of(part.corners, &has_uv);
     std::map<Corner, std::uint32_t> vertices;
     const auto vertex = [&](const Corner& corner) {
-      const auto [entry, is_new] = vertices.emplace(corner, std::uint32_t(vertices.size()));
+      const auto [entry, is_new] =
+          vertices.emplace(corner, static_cast<std::uint32_t>(vertices.size()));
       if (is_new) {
         primitive.positions.push_back(Vec3f(obj_.positions[corner.position] - origin));
         if (has_normals) primitive.normals.push_back(obj_.normals[corner.normal]);
@@ -187,12 +198,14 @@ class PrimitiveMaker {
     std::size_t begin = 0;
     for (const std::size_t end : part.faces) {
       polygon.clear();
-      for (std::size_t i = begin; i < end; ++i)
+      for (std::size_t i = begin; i < end; ++i) {
         polygon.push_back(obj_.positions[part.corners[i].position]);
-      for (const auto& [a, b, c] : triangulate(polygon))
+      }
+      for (const auto& [a, b, c] : triangulate(polygon)) {
         primitive.triangles.push_back({vertex(part.corners[begin + a]),
                                        vertex(part.corners[begin + b]),
                                        vertex(part.corners[begin + c])});
+      }
       begin = end;
     }
     return primitive;
@@ -203,8 +216,8 @@ class PrimitiveMaker {
   static bool has_uv(const Corner& corner) { return corner.uv >= 0; }
 
   Vec2f image_uv(int material, Vec2d uv) const {
-    if (material < 0) return {float(uv.x), float(1 - uv.y)};
-    return image_coordinates(materials_.materials[std::size_t(material)], uv.x, uv.y);
+    if (material < 0) return {static_cast<float>(uv.x), static_cast<float>(1 - uv.y)};
+    return image_coordinates(materials_.materials[material], uv.x, uv.y);
   }
 
   const Collector& obj_;
@@ -224,9 +237,10 @@ TreeModel read_obj(ByteSpan bytes, const std::filesystem::path& path) {
   ObjMaterials materials = read_material_libraries(text, folder, tree.warnings);
   Collector obj(file, materials);
   obj.run(text);
-  if (obj.parts.empty())
+  if (obj.parts.empty()) {
     input_error(file, "", "holds no faces",
                 "Give an OBJ file with polygons (lines that begin with f).");
+  }
 
   const PrimitiveMaker maker(obj, materials, file);
   for (const Part& part : obj.parts) maker.check(part);
@@ -238,8 +252,9 @@ TreeModel read_obj(ByteSpan bytes, const std::filesystem::path& path) {
 
   std::vector<bool> used(materials.materials.size(), false);
   for (const Part& part : obj.parts) {
-    if (part.material >= 0) used[std::size_t(part.material)] = true;
-    tree.instances.push_back({std::uint32_t(tree.primitives.size()), part.node_name, to_world});
+    if (part.material >= 0) used[part.material] = true;
+    tree.instances.push_back(
+        {static_cast<std::uint32_t>(tree.primitives.size()), part.node_name, to_world});
     tree.primitives.push_back(maker.make(part, origin));
   }
   add_materials(materials, used, folder, tree);

@@ -27,8 +27,9 @@ std::vector<std::string> arguments(std::string_view obj, std::string_view keywor
     const std::string_view line = trimmed(obj.substr(0, obj.find('\n')));
     obj.remove_prefix(std::min(obj.find('\n'), obj.size() - 1) + 1);
     if (line.starts_with(keyword) && line.size() > keyword.size() &&
-        (line[keyword.size()] == ' ' || line[keyword.size()] == '\t'))
+        (line[keyword.size()] == ' ' || line[keyword.size()] == '\t')) {
       found.emplace_back(trimmed(line.substr(keyword.size())));
+    }
   }
   return found;
 }
@@ -53,26 +54,28 @@ Image read_image(const std::string& name, const std::filesystem::path& folder,
 }
 
 bool has_transparency(const Image& image) {
-  for (std::size_t i = 3; i < image.rgba.size(); i += 4)
+  for (std::size_t i = 3; i < image.rgba.size(); i += 4) {
     if (image.rgba[i] != 255) return true;
+  }
   return false;
 }
 
 // map_d is a picture of the opacity: in its alpha where it has one, else in its grey.
 Image with_alpha(const Image& color, Image mask) {
   const bool in_alpha = has_transparency(mask);
-  for (int y = 0; y < mask.height; ++y)
+  for (int y = 0; y < mask.height; ++y) {
     for (int x = 0; x < mask.width; ++x) {
-      std::uint8_t* pixel = &mask.rgba[4 * (std::size_t(y) * mask.width + x)];
+      std::uint8_t* pixel = &mask.rgba[4 * (static_cast<std::size_t>(y) * mask.width + x)];
       if (!in_alpha) pixel[3] = pixel[0];
       if (color.empty()) {
         std::fill(pixel, pixel + 3, 255);
         continue;
       }
-      const std::size_t from_x = std::size_t(x) * color.width / mask.width;
-      const std::size_t from_y = std::size_t(y) * color.height / mask.height;
+      const std::size_t from_x = static_cast<std::size_t>(x) * color.width / mask.width;
+      const std::size_t from_y = static_cast<std::size_t>(y) * color.height / mask.height;
       std::copy_n(&color.rgba[4 * (from_y * color.width + from_x)], 3, pixel);
     }
+  }
   return mask;
 }
 
@@ -95,7 +98,7 @@ ObjMaterials read_material_libraries(std::string_view obj, const std::filesystem
 }
 
 int ObjMaterials::find_or_add(const std::string& name) {
-  const auto [entry, is_new] = by_name.emplace(name, int(materials.size()));
+  const auto [entry, is_new] = by_name.emplace(name, static_cast<int>(materials.size()));
   if (is_new) {
     tinyobj_double::material_t& material = materials.emplace_back();
     material.name = name;
@@ -116,17 +119,20 @@ void add_materials(const ObjMaterials& from, const std::vector<bool>& used,
     const tinyobj_double::material_t& source = from.materials[i];
     Material& material = tree.materials.emplace_back();
     material.name = source.name;
-    for (std::size_t c = 0; c < 3; ++c) material.base_color[c] = float(source.diffuse[c]);
-    material.base_color[3] = float(source.dissolve);
-    if (!source.alpha_texname.empty())
+    for (std::size_t c = 0; c < 3; ++c)
+      material.base_color[c] = static_cast<float>(source.diffuse[c]);
+    material.base_color[3] = static_cast<float>(source.dissolve);
+    if (!source.alpha_texname.empty()) {
       material.alpha_mode = AlphaMode::mask;
-    else if (source.dissolve < 1)
+    } else if (source.dissolve < 1) {
       material.alpha_mode = AlphaMode::blend;
+    }
     if (source.diffuse_texopt.clamp) material.wrap_u = material.wrap_v = Wrap::clamp;
 
     const auto& [color, alpha] = std::tie(source.diffuse_texname, source.alpha_texname);
     if (!used[i] || (color.empty() && alpha.empty())) continue;
-    const auto [entry, is_new] = images.emplace(std::pair(color, alpha), int(tree.images.size()));
+    const auto [entry, is_new] =
+        images.emplace(std::pair(color, alpha), static_cast<int>(tree.images.size()));
     material.base_color_image = entry->second;
     if (!is_new) continue;
     Image image;
@@ -142,8 +148,8 @@ void add_materials(const ObjMaterials& from, const std::vector<bool>& used,
 Vec2f image_coordinates(const tinyobj_double::material_t& material, double u, double v) {
   const tinyobj_double::texture_option_t& map =
       material.diffuse_texname.empty() ? material.alpha_texopt : material.diffuse_texopt;
-  return {float(u * map.scale[0] + map.origin_offset[0]),
-          float(1 - (v * map.scale[1] + map.origin_offset[1]))};
+  return {static_cast<float>(u * map.scale[0] + map.origin_offset[0]),
+          static_cast<float>(1 - (v * map.scale[1] + map.origin_offset[1]))};
 }
 
 }  // namespace leafhull

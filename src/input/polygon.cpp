@@ -12,9 +12,10 @@ double area(Vec3d a, Vec3d b, Vec3d c, Vec3d normal) { return dot(cross(b - a, c
 
 Vec3d newell_normal(std::span<const Vec3d> polygon) {
   Vec3d normal;
-  for (std::size_t i = 0; i < polygon.size(); ++i)
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
     normal =
         normal + cross(polygon[i] - polygon[0], polygon[(i + 1) % polygon.size()] - polygon[0]);
+  }
   return normal;
 }
 
@@ -46,7 +47,7 @@ std::vector<std::array<std::uint32_t, 3>> triangulate(std::span<const Vec3d> pol
     if (tip == rest.size()) tip = 1;
     const std::size_t count = rest.size();
     triangles.push_back({rest[(tip + count - 1) % count], rest[tip], rest[(tip + 1) % count]});
-    rest.erase(rest.begin() + std::ptrdiff_t(tip));
+    rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(tip));
   }
   triangles.push_back({rest[0], rest[1], rest[2]});
   return triangles;

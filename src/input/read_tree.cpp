@@ -17,7 +17,7 @@ namespace {
 std::string lower_extension(const std::filesystem::path& path) {
   std::string extension = path.extension().string();
   std::ranges::transform(extension, extension.begin(),
-                         [](unsigned char c) { return char(std::tolower(c)); });
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return extension;
 }
 
@@ -43,14 +43,15 @@ TreeModel read_tree(const std::filesystem::path& path) {
   if (bytes.empty()) input_error(path.string(), "", "is empty", kFormats);
 
   TreeModel tree;
-  if (looks_like_gltf(text_of(bytes)))
+  if (looks_like_gltf(text_of(bytes))) {
     tree = read_gltf(bytes, path.string(), path.parent_path());
-  else if (extension == ".obj")
+  } else if (extension == ".obj") {
     tree = read_obj(bytes, path);
-  else if (extension == ".glb" || extension == ".gltf")
+  } else if (extension == ".glb" || extension == ".gltf") {
     input_error(path.string(), "", "is not a glTF file in spite of its name", kFormats);
-  else
+  } else {
     input_error(path.string(), "", "is neither a glTF nor an OBJ file", kFormats);
+  }
   tree.path = path;
   return tree;
 }

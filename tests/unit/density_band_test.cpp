@@ -62,7 +62,9 @@ TEST(KernelHash, GathersWhatIsNearInAscendingOrder) {
       const Vec3d c = lattice.local(kernels[k].centre);
       const bool near = c.x >= low.x - r && c.x <= high.x + r && c.y >= low.y - r &&
                         c.y <= high.y + r && c.z >= low.z - r && c.z <= high.z + r;
-      if (near) EXPECT_TRUE(set.count(k)) << k;
+      if (near) {
+        EXPECT_TRUE(set.count(k)) << k;
+      }
     }
   }
 }
@@ -109,8 +111,12 @@ TEST(Band, DecidesOnlyWhatTheDensityBearsOut) {
     const double n = reference::density(kernels, lattice.world(to_vec3d(s)), 2);
     const Verdict v = verdict(band, s);
     ++seen[static_cast<int>(v)];
-    if (v == Verdict::inside) EXPECT_GE(n, t);
-    if (v == Verdict::outside) EXPECT_LT(n, t);
+    if (v == Verdict::inside) {
+      EXPECT_GE(n, t);
+    }
+    if (v == Verdict::outside) {
+      EXPECT_LT(n, t);
+    }
   }
   for (const int count : seen) EXPECT_GT(count, 0);
 }

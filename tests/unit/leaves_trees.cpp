@@ -150,8 +150,8 @@ INSTANTIATE_TEST_SUITE_P(All, SharedTrees,
                                            SharedTree{"aspen-52648.glb", 13162, 52648, 0},
                                            SharedTree{"birch.glb", 9459, 56754, 20},
                                            SharedTree{"callistemon.glb", 4794, 28764, 5}),
-                         [](const auto& info) {
-                           const std::string file = info.param.file;
+                         [](const auto& tree) {
+                           const std::string file = tree.param.file;
                            return file.substr(0, file.find_first_of("-."));
                          });
 
