@@ -177,7 +177,8 @@ kernel void snap_points(global const Kernel* restrict kernels, global const Chun
   STORE(v.x, xs);
   STORE(v.y, ys);
   STORE(v.z, zs);
-  const real scale = -rsqrt(fmax(steepness_of(v.sample), REAL(1e-30f)));
+  const real steepness = steepness_of(v.sample);
+  const real scale = select(-rsqrt(steepness), REAL(0.0f), steepness < REAL(1e-30f));
   STORE(v.sample.dx * scale, nxs);
   STORE(v.sample.dy * scale, nys);
   STORE(v.sample.dz * scale, nzs);

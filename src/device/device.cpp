@@ -16,7 +16,8 @@ namespace {
 
 constexpr const char* kInstallPocl =
     "Install the OpenCL runtime for CPUs, PoCL (Debian: apt-get install pocl-opencl-icd), or the "
-    "driver of your GPU.";
+    "driver of your GPU. If PoCL is installed, its cache folder may not be writable: set "
+    "POCL_CACHE_DIR.";
 
 struct Found {
   DeviceInfo info;
@@ -220,7 +221,8 @@ cl::Kernel Device::Engine::kernel(std::string_view source, const std::string& op
                 "the OpenCL kernel " + std::string(name) + " does not build on '" + info.name +
                     "' (" + error.what() + ", " + std::to_string(error.err()) + "):\n" +
                     trimmed(log),
-                "Choose another device with --device, and report this log.");
+                "Choose another device with --device; if this is PoCL, see that its cache folder "
+                "(POCL_CACHE_DIR) can be written to.");
   }
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <memory>
 #include <optional>
 
@@ -12,6 +13,7 @@
 #include "leafhull/error.h"
 #include "leafhull/shape.h"
 #include "pipeline/evaluate.h"
+#include "pipeline/grid.h"
 #include "pipeline/memory.h"
 #include "pipeline/stopwatch.h"
 #include "surface/components.h"
@@ -22,33 +24,13 @@
 namespace leafhull {
 namespace {
 
-/// Crown units along the longest side of the leaves' bounding box. SPEC: 4.
-constexpr double kCrownUnits = 64;
 constexpr int kSnapSteps = 12;
-
-double radius_in_model_units(const LeafSet& leaves, const Options& options) {
-  switch (options.radius_unit) {
-    case RadiusUnit::crown:
-      return *options.radius_max * leaves.bounds.longest_side() / kCrownUnits;
-    case RadiusUnit::leaf:
-      return *options.radius_max * leaves.mean_radius_major;
-    case RadiusUnit::model:
-      return *options.radius_max;
-  }
-  throw Error(ErrorCode::internal, "unknown radius unit");
-}
 
 std::vector<Vec3d> local_positions(std::span<const LeafVertex> leaves, const Lattice& lattice) {
   std::vector<Vec3d> points;
   points.reserve(leaves.size());
   for (const LeafVertex& leaf : leaves) points.push_back(lattice.local(leaf.position));
   return points;
-}
-
-/// The lattice for sums at leaf vertices, its bricks as large as the radius: what is computed there
-/// does not depend on the resolution.
-Lattice leaf_lattice(const LeafSet& leaves, double radius_max) {
-  return Lattice::near(leaves.bounds.low, radius_max / kBrickEdge);
 }
 
 /// N_iso at the leaf vertices, summed there or, as in step 2 of the paper, interpolated.
@@ -65,22 +47,31 @@ std::vector<float> isotropic_density(const LeafSet& leaves, double radius_max,
 
 double threshold_of(const Options& options, const DensityStatistics& statistics,
                     std::span<const float> density) {
-  if (options.threshold) return *options.threshold;
-  if (options.threshold_percent) return *options.threshold_percent / 100 * statistics.mean;
-  return threshold_for_coverage(density, *options.coverage);
+  const double threshold = options.threshold ? *options.threshold
+                           : options.threshold_percent
+                               ? *options.threshold_percent / 100 * statistics.mean
+                               : threshold_for_coverage(density, *options.coverage);
+  if (threshold < static_cast<double>(std::numeric_limits<float>::min())) {
+    throw Error(ErrorCode::usage, "the threshold T, " + std::to_string(threshold) + ", is zero",
+                "Raise --threshold.");
+  }
+  return threshold;
 }
 
-[[noreturn]] void refuse_empty(const Field& field, std::span<const float> at_leaves) {
+[[noreturn]] void refuse_empty(const Field& field, const Options& options,
+                               std::span<const float> at_leaves) {
   float highest = *std::max_element(at_leaves.begin(), at_leaves.end());
   for (const float n : field.samples) highest = std::max(highest, n);
-  char text[160];
+  char text[200];
   std::snprintf(text, sizeof text,
-                "the surface is empty: the density, at most %.4g, nowhere encloses a sample at the "
-                "threshold %.4g",
-                static_cast<double>(highest), field.threshold);
+                "the surface is empty: no sample reaches the threshold %.4g, the density being at "
+                "most %.4g at the leaf vertices and between",
+                field.threshold, static_cast<double>(highest));
+  const char* lower = options.threshold           ? "Lower --threshold"
+                      : options.threshold_percent ? "Lower --threshold-percent"
+                                                  : "Give --threshold 50% in place of --coverage";
   throw Error(ErrorCode::empty, text,
-              "Lower --threshold or raise --coverage, enlarge --radius-max, or take a finer "
-              "--resolution.");
+              std::string(lower) + ", enlarge --radius-max, or take a finer --resolution.");
 }
 
 /// Lattice positions in model units. The origin moves to the lattice's anchor only where a float at
@@ -107,7 +98,10 @@ void fill_missing_normals(Mesh& mesh) {
     for (const std::uint32_t v : {a, b, c}) sum[v] = sum[v] + area;
   }
   for (std::uint32_t v = 0; v < sum.size(); ++v) {
-    if (missing(v)) mesh.normals[v] = Vec3f(normalized(sum[v]));
+    if (!missing(v)) continue;
+    const Vec3d mean = normalized(sum[v]);
+    mesh.normals[v] =
+        mean == Vec3d{} ? Vec3f(0, 1, 0) : Vec3f(mean);  // faces without area: any will do
   }
 }
 
@@ -126,11 +120,8 @@ Shape extract(const LeafSet& leaves, const Options& asked, Device& device,
   const Options options = report.options = resolve(asked);
 
   // Step 1: the grid.
-  const double radius_max = report.radius_max_model = radius_in_model_units(leaves, options);
-  const double side = leaves.bounds.longest_side() + 2 * radius_max;
-  report.voxel_size = options.voxel_size ? *options.voxel_size : side / *options.resolution;
-  report.resolution = static_cast<int>(std::min(std::round(side / report.voxel_size), 1e9));
-  const Lattice lattice = Lattice::near(leaves.bounds.low, report.voxel_size);
+  const Lattice lattice = set_grid(leaves, report);
+  const double radius_max = report.radius_max_model;
 
   // Step 2: the isotropic density at the leaf vertices.
   watch.start("isotropic density");
@@ -166,7 +157,7 @@ Shape extract(const LeafSet& leaves, const Options& asked, Device& device,
   watch.start("polygonise");
   const openvdb::FloatGrid::Ptr depth = depth_grid(*field);
   Polygons polygons = polygonise(*depth, options.adaptivity);
-  if (polygons.points.empty()) refuse_empty(*field, density_at_leaves);
+  if (polygons.points.empty()) refuse_empty(*field, options, density_at_leaves);
 
   watch.start("snap");
   shape.mesh.normals = density.snap(polygons.points, threshold, options.snap ? kSnapSteps : 0);

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pipeline/grid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <string>
+
+#include "leafhull/error.h"
+
+namespace leafhull {
+namespace {
+
+/// Crown units along the longest side of the leaves' bounding box. SPEC: 4.
+constexpr double kCrownUnits = 64;
+/// As for --resolution.
+constexpr double kMostVoxels = 1e6 * (1 + 1e-9);
+/// A radius beyond this many crowns is a slip, and its support a lattice without end.
+constexpr double kLargestRadius = 100;
+
+double radius_in_model_units(const LeafSet& leaves, const Options& options) {
+  switch (options.radius_unit) {
+    case RadiusUnit::crown:
+      return *options.radius_max * leaves.bounds.longest_side() / kCrownUnits;
+    case RadiusUnit::leaf:
+      return *options.radius_max * leaves.mean_radius_major;
+    case RadiusUnit::model:
+      return *options.radius_max;
+  }
+  throw Error(ErrorCode::internal, "unknown radius unit");
+}
+
+std::string number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.4g", value);
+  return text;
+}
+
+void check_radii(const LeafSet& leaves, double radius_max) {
+  const double crown = leaves.bounds.longest_side();
+  if (crown > 0 && radius_max > kLargestRadius * crown) {
+    throw Error(ErrorCode::usage,
+                "R_max, " + number(radius_max) + " model units, is more than " +
+                    number(kLargestRadius) + " times the crown of " + number(crown),
+                "Lower --radius-max or look at --radius-unit.");
+  }
+  float largest = 0;
+  for (const LeafVertex& leaf : leaves.vertices) largest = std::max(largest, leaf.radius_major);
+  if (largest > kLargestRadius * (crown + 2 * radius_max)) {
+    throw Error(ErrorCode::usage,
+                "a leaf's radius, " + number(static_cast<double>(largest)) +
+                    " model units, is more than " + number(kLargestRadius) +
+                    " times the crown of " + number(crown),
+                "Lower --leaf-scale or look at --ellipse.");
+  }
+}
+
+void check_voxels(const LeafSet& leaves, double side, double voxel_size) {
+  if (!(side > 0)) {
+    throw Error(ErrorCode::input, "the crown has no extent: all leaf vertices are at one point",
+                "Repair the model, or give --radius-max with --radius-unit model.");
+  }
+  if (side / voxel_size > kMostVoxels || voxel_size > side) {
+    throw Error(ErrorCode::usage,
+                "a voxel of " + number(voxel_size) + " does not suit a crown of " + number(side) +
+                    " model units, R_max on both sides",
+                "Give a --voxel-size from " + number(side / kMostVoxels) + " to " + number(side) +
+                    ", or a --resolution.");
+  }
+  const Box& b = leaves.bounds;
+  double farthest = 0;
+  for (const double c : {b.low.x, b.low.y, b.low.z, b.high.x, b.high.y, b.high.z}) {
+    farthest = std::max(farthest, std::fabs(c));
+  }
+  if (farthest * std::numeric_limits<double>::epsilon() > 0.01 * voxel_size) {
+    throw Error(ErrorCode::input,
+                "the crown lies " + number(farthest) +
+                    " model units from the origin, too far for " + "voxels of " +
+                    number(voxel_size),
+                "Move the tree closer to the origin.");
+  }
+}
+
+}  // namespace
+
+Lattice set_grid(const LeafSet& leaves, Report& report) {
+  const Options& options = report.options;
+  report.radius_max_model = radius_in_model_units(leaves, options);
+  check_radii(leaves, report.radius_max_model);
+  const double side = leaves.bounds.longest_side() + 2 * report.radius_max_model;
+  report.voxel_size = options.voxel_size ? *options.voxel_size : side / *options.resolution;
+  check_voxels(leaves, side, report.voxel_size);
+  report.resolution = static_cast<int>(std::lround(side / report.voxel_size));
+  return Lattice::near(leaves.bounds.low, report.voxel_size);
+}
+
+Lattice leaf_lattice(const LeafSet& leaves, double radius_max) {
+  constexpr double kSmallestPart = 1.0 / 256;
+  const double brick = std::max(radius_max, leaves.bounds.longest_side() * kSmallestPart);
+  return Lattice::near(leaves.bounds.low, brick / kBrickEdge);
+}
+
+}  // namespace leafhull
