@@ -1,7 +1,6 @@
 # leafhull_embed_kernels(TARGET FILE...): compiles OpenCL sources into TARGET as raw bytes, their
 # #include "x.clh" lines replaced by the file. See embed_kernel.cmake for the generated code.
 function(leafhull_embed_kernels target)
-  set(headers "")
   file(GLOB headers CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/kernels/*.clh)
   foreach(source IN LISTS ARGN)
     get_filename_component(name ${source} NAME_WE)

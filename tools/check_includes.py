@@ -12,12 +12,12 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 # Room: the rooms it may include beside itself, and the third-party libraries it may know.
 ROOMS = {
     "input": ((), ("tinygltf", "tinyobjloader", "json", "draco", "meshoptimizer", "stb")),
-    "leaves": ((), ("eigen", "stb")),
+    "leaves": ((), ("eigen",)),
     "density": ((), ("openvdb", "tbb")),
     "device": (("density",), ("opencl",)),
     "surface": (("density",), ("openvdb", "tbb")),
     "output": (("density", "surface"), ("tinygltf", "openvdb", "json")),
-    "pipeline": (("input", "leaves", "density", "device", "surface", "output"), ("tbb",)),
+    "pipeline": (("density", "device", "surface"), ("tbb",)),
     "cli": ((), ("cli11", "json")),
 }
 

@@ -139,7 +139,7 @@ void draw(const Scene& scene, const Camera& camera, int samples, int left, int w
   const Painter painter(scene, camera);
   tbb::parallel_for(0, picture.height, [&](int row) {
     for (int column = 0; column < width; ++column) {
-      const std::uint32_t pixel = row * std::uint32_t(picture.width) + left + column;
+      const std::uint32_t pixel = row * picture.width + left + column;
       Vec3f sum{};
       for (int i = 0; i < samples; ++i) {
         const Sample sample{pixel, static_cast<std::uint32_t>(i)};
@@ -147,7 +147,7 @@ void draw(const Scene& scene, const Camera& camera, int samples, int left, int w
         sum =
             sum + painter.color((column + lens.x) / width, (row + lens.y) / picture.height, sample);
       }
-      std::uint8_t* rgb = &picture.rgb[3 * std::size_t(pixel)];
+      std::uint8_t* rgb = &picture.rgb[std::size_t{3} * pixel];
       rgb[0] = srgb(sum.x / samples), rgb[1] = srgb(sum.y / samples),
       rgb[2] = srgb(sum.z / samples);
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <vector>
@@ -13,7 +14,7 @@ namespace leafhull::preview {
 /// Pixels of 8-bit sRGB, rows from the top.
 struct Picture {
   Picture(int width, int height)
-      : width(width), height(height), rgb(3 * std::size_t(width) * height) {}
+      : width(width), height(height), rgb(3 * static_cast<std::size_t>(width) * height) {}
   int width, height;
   std::vector<std::uint8_t> rgb;
 };

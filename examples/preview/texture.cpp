@@ -42,7 +42,8 @@ void for_each_texel(const Image& image, const Material& material, Vec2f uv, Func
   const Texels row(uv.y, image.height, material.wrap_v);
   for (int j = 0; j < 2; ++j) {
     for (int i = 0; i < 2; ++i) {
-      const std::size_t texel = std::size_t(row.index[j]) * image.width + column.index[i];
+      const std::size_t texel =
+          static_cast<std::size_t>(row.index[j]) * image.width + column.index[i];
       use(&image.rgba[4 * texel],
           (i ? column.weight : 1 - column.weight) * (j ? row.weight : 1 - row.weight));
     }

@@ -91,12 +91,13 @@ std::string style_line(Style style) {
 
 std::string styles_and_presets() {
   std::string text = "\nStyles\n";
-  for (std::size_t i = 0; i < names(Style{}).size(); ++i) text += style_line(Style(i));
+  for (std::size_t i = 0; i < names(Style{}).size(); ++i) text += style_line(static_cast<Style>(i));
   text += "\nPresets (voxels along the longest side)\n";
   std::string presets;
   for (std::size_t i = 0; i < names(Preset{}).size(); ++i) {
-    presets += (presets.empty() ? "" : ", ") + std::string(name(Preset(i))) + " " +
-               std::to_string(resolution_of(Preset(i)));
+    const auto preset = static_cast<Preset>(i);
+    presets += (presets.empty() ? "" : ", ") + std::string(name(preset)) + " " +
+               std::to_string(resolution_of(preset));
   }
   return text + "  " + presets + "\n";
 }

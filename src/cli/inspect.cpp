@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <cctype>
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -26,7 +27,7 @@ std::string_view name_of(AlphaMode mode) {
 std::string quoted(const std::string& word) {
   const bool plain = !word.empty() && std::all_of(word.begin(), word.end(), [](unsigned char c) {
     return std::isalnum(c) != 0 ||
-           std::string_view("/._-+,:@%").find(char(c)) != std::string_view::npos;
+           std::string_view("/._-+,:@%").find(static_cast<char>(c)) != std::string_view::npos;
   });
   if (plain) return word;
   std::string text = "'";
@@ -97,7 +98,7 @@ void print_primitives(const std::vector<PrimitiveSummary>& rows) {
 
 std::string text(Vec3d p) { return number(p.x, 5) + " " + number(p.y, 5) + " " + number(p.z, 5); }
 
-/// R_v / R_u of the mean leaf vertex.
+/// The mean of R_u / R_v over the leaf vertices.
 double slenderness(const LeafSet& leaves) {
   double sum = 0;
   for (const LeafVertex& v : leaves.vertices) sum += v.radius_major / v.radius_minor;

@@ -6,7 +6,9 @@
 #include <charconv>
 #include <cstdio>
 #include <numeric>
+#include <optional>
 #include <type_traits>
+#include <utility>
 
 #include "leafhull/error.h"
 

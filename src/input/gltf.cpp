@@ -14,14 +14,14 @@ namespace leafhull {
 TreeModel read_gltf(ByteSpan bytes, const std::string& name,
                     const std::optional<std::filesystem::path>& folder) {
   GltfFile file = open_gltf(bytes, name, folder);
-  const std::vector<Placement> placements = place_meshes(file);
+  const std::vector<PlacedMesh> placements = place_meshes(file);
 
   TreeModel tree;
   MaterialReader materials(file, tree);
   materials.read_all();
   // Primitives of the tree by mesh, in file order; a mesh that nothing places is not read.
   std::map<int, std::vector<std::uint32_t>> primitives;
-  for (const Placement& placement : placements) primitives[placement.mesh];
+  for (const PlacedMesh& placement : placements) primitives[placement.mesh];
   for (auto& [mesh, numbers] : primitives) {
     const std::size_t count = file.model.meshes[mesh].primitives.size();
     for (std::size_t i = 0; i < count; ++i) {
@@ -32,7 +32,7 @@ TreeModel read_gltf(ByteSpan bytes, const std::string& name,
       tree.primitives.push_back(std::move(*primitive));
     }
   }
-  for (const Placement& placement : placements) {
+  for (const PlacedMesh& placement : placements) {
     for (const std::uint32_t primitive : primitives[placement.mesh]) {
       tree.instances.push_back({primitive, placement.node_name, placement.to_world});
     }

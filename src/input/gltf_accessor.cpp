@@ -49,9 +49,8 @@ Out converted(const std::uint8_t* from, bool normalized) {
   T value;
   std::memcpy(&value, from, sizeof value);
   if constexpr (std::is_integral_v<T> && std::is_floating_point_v<Out>) {
-    if (normalized)
-      return std::max(static_cast<Out>(value) / static_cast<Out>(std::numeric_limits<T>::max()),
-                      Out{-1});
+    constexpr Out kOne = std::numeric_limits<T>::max();
+    if (normalized) return std::max(value / kOne, Out{-1});
   }
   return static_cast<Out>(value);
 }
@@ -111,19 +110,16 @@ void put_sparse_values(GltfFile& file, const tinygltf::Accessor& accessor, Eleme
   if (!is_index_type(sparse.indices.componentType)) {
     file.fail(place, "its sparse indices are not unsigned integers");
   }
-  if (static_cast<std::size_t>(sparse.count) > shape.count) {
-    file.fail(place, "has more sparse values than elements");
-  }
-
   const auto count = static_cast<std::size_t>(sparse.count);
+  if (count > shape.count) file.fail(place, "has more sparse values than elements");
+
   const Elements index_elements = elements_of(
-      file, sparse.indices.bufferView, static_cast<std::size_t>(sparse.indices.byteOffset),
+      file, sparse.indices.bufferView, sparse.indices.byteOffset,
       {.count = count, .component_type = sparse.indices.componentType}, place + ", sparse indices");
   shape.count = count;
   shape.stride = 0;
-  const Elements values = elements_of(file, sparse.values.bufferView,
-                                      static_cast<std::size_t>(sparse.values.byteOffset), shape,
-                                      place + ", sparse values");
+  const Elements values = elements_of(file, sparse.values.bufferView, sparse.values.byteOffset,
+                                      shape, place + ", sparse values");
   std::vector<std::uint32_t> indices(count);
   copy(index_elements, 0, count, indices.data());
   for (std::size_t i = 0; i < count; ++i) {
@@ -142,7 +138,7 @@ std::size_t bytes_at_hand(const GltfFile& file) {
 
 template <class Out>
 std::vector<Out> read(GltfFile& file, int index, int type, const std::string& user) {
-  if (index < 0 || static_cast<std::size_t>(index) >= file.model.accessors.size()) {
+  if (!is_index(index, file.model.accessors.size())) {
     file.fail(user, "there is no " + place_of("accessors", index));
   }
   const std::string place = accessor_place(user, index);
@@ -165,7 +161,7 @@ std::vector<Out> read(GltfFile& file, int index, int type, const std::string& us
                  .normalized = accessor.normalized};
   std::vector<Out> out;
   if (accessor.bufferView >= 0) {
-    if (static_cast<std::size_t>(accessor.bufferView) < file.model.bufferViews.size()) {
+    if (is_index(accessor.bufferView, file.model.bufferViews.size())) {
       shape.stride = file.model.bufferViews[accessor.bufferView].byteStride;
     }
     const Elements elements =
@@ -185,7 +181,7 @@ std::vector<Out> read(GltfFile& file, int index, int type, const std::string& us
 template <class Vector>
 std::vector<Vector> read_vectors(GltfFile& file, int accessor, int size, const std::string& user) {
   const std::vector<float> floats = read<float>(file, accessor, size, user);
-  std::vector<Vector> vectors(floats.size() / static_cast<std::size_t>(size));
+  std::vector<Vector> vectors(floats.size() / size);
   static_assert(std::is_trivially_copyable_v<Vector>);
   if (!floats.empty()) {
     std::memcpy(static_cast<void*>(vectors.data()), floats.data(), floats.size() * sizeof(float));
@@ -196,7 +192,7 @@ std::vector<Vector> read_vectors(GltfFile& file, int accessor, int size, const s
 }  // namespace
 
 ByteSpan view_bytes(GltfFile& file, int index, const std::string& user) {
-  if (index < 0 || static_cast<std::size_t>(index) >= file.model.bufferViews.size()) {
+  if (!is_index(index, file.model.bufferViews.size())) {
     file.fail(user, "there is no " + place_of("bufferViews", index));
   }
   const tinygltf::BufferView& view = file.model.bufferViews[index];
@@ -207,7 +203,7 @@ ByteSpan view_bytes(GltfFile& file, int index, const std::string& user) {
 
 ByteSpan buffer_bytes(const GltfFile& file, int index, std::size_t offset, std::size_t length,
                       const std::string& place) {
-  if (index < 0 || static_cast<std::size_t>(index) >= file.buffers.size()) {
+  if (!is_index(index, file.buffers.size())) {
     file.fail(place, "there is no " + place_of("buffers", index));
   }
   const ByteSpan buffer = file.buffers[index];

@@ -38,9 +38,7 @@ std::string_view defect(const MeshoptView& view) {
   if (view.offset < 0 || view.length < 0 || view.stride < 0 || view.count < 0) {
     return "lacks a number, or has one that is too large";
   }
-  const auto length = static_cast<std::size_t>(view.length),
-             count = static_cast<std::size_t>(view.count);
-  const auto stride = static_cast<std::size_t>(view.stride);
+  const std::size_t length = view.length, count = view.count, stride = view.stride;
   const bool has_filter = !view.filter.empty() && view.filter != "NONE";
   if (view.mode == "ATTRIBUTES") {
     if (stride == 0 || stride > 256 || stride % 4 != 0) return "byteStride is not 4, 8, ... 256";
@@ -63,8 +61,7 @@ std::string_view defect(const MeshoptView& view) {
 }
 
 int decode_meshopt(const MeshoptView& view, ByteSpan from, Bytes& to) {
-  const auto count = static_cast<std::size_t>(view.count),
-             stride = static_cast<std::size_t>(view.stride);
+  const std::size_t count = view.count, stride = view.stride;
   if (view.mode == "TRIANGLES") {
     return meshopt_decodeIndexBuffer(to.data(), count, stride, from.data(), from.size());
   }
@@ -88,8 +85,7 @@ template <class Vector>
 std::vector<Vector> draco_vectors(const GltfFile& file, const draco::Mesh& mesh, int id,
                                   const std::string& place) {
   constexpr int kComponents = sizeof(Vector) / sizeof(float);
-  const draco::PointAttribute* attribute =
-      mesh.GetAttributeByUniqueId(static_cast<std::uint32_t>(id));
+  const draco::PointAttribute* attribute = mesh.GetAttributeByUniqueId(id);
   if (!attribute || attribute->num_components() != kComponents ||
       !is_attribute_type(attribute->data_type())) {
     file.fail(place, "attribute " + std::to_string(id) + " is missing or of another type");
@@ -117,9 +113,8 @@ ByteSpan meshopt_bytes(GltfFile& file, int index) {
   const MeshoptView view =
       meshopt_view(*find_extension(described.extensions, "EXT_meshopt_compression"));
   if (const std::string_view wrong = defect(view); !wrong.empty()) file.fail(place, wrong);
-  const ByteSpan compressed = buffer_bytes(file, view.buffer, static_cast<std::size_t>(view.offset),
-                                           static_cast<std::size_t>(view.length), place);
-  Bytes bytes(static_cast<std::size_t>(view.count) * static_cast<std::size_t>(view.stride));
+  const ByteSpan compressed = buffer_bytes(file, view.buffer, view.offset, view.length, place);
+  Bytes bytes(static_cast<std::size_t>(view.count) * view.stride);
   if (decode_meshopt(view, compressed, bytes) != 0) file.fail(place, "the data cannot be decoded");
   return file.decompressed_views[index] = std::move(bytes);
 }

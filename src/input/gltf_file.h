@@ -45,6 +45,11 @@ inline std::string place_of(std::string_view list, std::size_t index) {
   return std::string(list) + '[' + std::to_string(index) + ']';
 }
 
+/// Whether a list of `size` elements has one at `index`.
+inline bool is_index(int index, std::size_t size) {
+  return index >= 0 && static_cast<std::size_t>(index) < size;
+}
+
 /// An extension of an object, or null.
 inline const tinygltf::Value* find_extension(const tinygltf::ExtensionMap& extensions,
                                              const std::string& name) {

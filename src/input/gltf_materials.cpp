@@ -103,7 +103,7 @@ MaterialReader::BaseColor MaterialReader::read_base_color(const tinygltf::Materi
 
 TextureMapping MaterialReader::use(int index, const std::string& user) {
   if (index < 0) return {};
-  if (static_cast<std::size_t>(index) >= tree_.materials.size()) {
+  if (!is_index(index, tree_.materials.size())) {
     file_.fail(user, "there is no " + place_of("materials", index));
   }
   Material& material = tree_.materials[index];
@@ -117,11 +117,11 @@ TextureMapping MaterialReader::use(int index, const std::string& user) {
 
 int MaterialReader::image_of(int index, Material& material, const std::string& place) {
   const tinygltf::Model& model = file_.model;
-  if (static_cast<std::size_t>(index) >= model.textures.size()) {
+  if (!is_index(index, model.textures.size())) {
     file_.fail(place, "there is no " + place_of("textures", index));
   }
   const tinygltf::Texture& texture = model.textures[index];
-  if (texture.sampler >= 0 && static_cast<std::size_t>(texture.sampler) < model.samplers.size()) {
+  if (is_index(texture.sampler, model.samplers.size())) {
     const tinygltf::Sampler& sampler = model.samplers[texture.sampler];
     material.wrap_u = wrap(sampler.wrapS);
     material.wrap_v = wrap(sampler.wrapT);
@@ -135,7 +135,7 @@ int MaterialReader::read_image(int index) {
   const std::string place = place_of("images", index);
   Image image;
   std::string reason;
-  if (index < 0 || static_cast<std::size_t>(index) >= file_.model.images.size()) {
+  if (!is_index(index, file_.model.images.size())) {
     reason = "there is no such image";
   } else {
     try {

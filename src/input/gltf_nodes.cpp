@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <ranges>
 
 #include "input/gltf_accessor.h"
 
@@ -97,18 +98,17 @@ std::vector<Transform> copies_of(GltfFile& file, const tinygltf::Value& extensio
 
 std::vector<int> root_nodes(const GltfFile& file) {
   const tinygltf::Model& model = file.model;
-  if (model.defaultScene >= 0 &&
-      static_cast<std::size_t>(model.defaultScene) >= model.scenes.size()) {
+  if (model.defaultScene >= 0 && !is_index(model.defaultScene, model.scenes.size())) {
     file.fail("scene", "there is no " + place_of("scenes", model.defaultScene));
   }
   if (!model.scenes.empty()) {
-    return model.scenes[static_cast<std::size_t>(std::max(model.defaultScene, 0))].nodes;
+    return model.scenes[std::max(model.defaultScene, 0)].nodes;
   }
 
   std::vector<bool> is_child(model.nodes.size(), false);
   for (const tinygltf::Node& node : model.nodes) {
     for (const int child : node.children) {
-      if (static_cast<std::size_t>(child) < is_child.size()) is_child[child] = true;
+      if (is_index(child, is_child.size())) is_child[child] = true;
     }
   }
   std::vector<int> roots;
@@ -120,25 +120,24 @@ std::vector<int> root_nodes(const GltfFile& file) {
 
 }  // namespace
 
-std::vector<Placement> place_meshes(GltfFile& file) {
+std::vector<PlacedMesh> place_meshes(GltfFile& file) {
   struct Visit {
     int node;
     Transform parent;
   };
   std::vector<Visit> stack;
   const auto push = [&](const std::vector<int>& nodes, const Transform& parent) {
-    for (auto node = nodes.rbegin(); node != nodes.rend(); ++node) stack.push_back({*node, parent});
+    for (const int node : std::views::reverse(nodes)) stack.push_back({node, parent});
   };
   push(root_nodes(file), kIdentity);
 
-  std::vector<Placement> placements;
+  std::vector<PlacedMesh> placements;
   std::vector<bool> visited(file.model.nodes.size(), false);
   while (!stack.empty()) {
     const auto [index, parent] = stack.back();
     stack.pop_back();
     const std::string place = place_of("nodes", index);
-    if (static_cast<std::size_t>(index) >= visited.size())
-      file.fail("nodes", "there is no " + place);
+    if (!is_index(index, visited.size())) file.fail("nodes", "there is no " + place);
     if (visited[index]) {
       file.fail(place, "is reached twice: the nodes have a cycle or a node has two parents");
     }
@@ -149,7 +148,7 @@ std::vector<Placement> place_meshes(GltfFile& file) {
     if (!is_finite(to_world)) file.fail(place, "has a transform that is not finite");
     push(node.children, to_world);
     if (node.mesh < 0) continue;
-    if (static_cast<std::size_t>(node.mesh) >= file.model.meshes.size()) {
+    if (!is_index(node.mesh, file.model.meshes.size())) {
       file.fail(place, "there is no " + place_of("meshes", node.mesh));
     }
     if (const auto* extension = find_extension(node.extensions, "EXT_mesh_gpu_instancing")) {

@@ -10,7 +10,7 @@
 namespace leafhull {
 
 /// A mesh of the file put into the scene by a node.
-struct Placement {
+struct PlacedMesh {
   int mesh = 0;
   std::string node_name;
   Transform to_world = kIdentity;
@@ -20,6 +20,6 @@ struct Placement {
 /// in depth-first order, each copy of EXT_mesh_gpu_instancing for itself. Skins and animations are
 /// at rest.
 /// @throws Error input: nodes that are not a tree, or a transform that is not finite.
-std::vector<Placement> place_meshes(GltfFile& file);
+std::vector<PlacedMesh> place_meshes(GltfFile& file);
 
 }  // namespace leafhull

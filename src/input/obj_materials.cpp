@@ -119,8 +119,7 @@ void add_materials(const ObjMaterials& from, const std::vector<bool>& used,
     const tinyobj_double::material_t& source = from.materials[i];
     Material& material = tree.materials.emplace_back();
     material.name = source.name;
-    for (std::size_t c = 0; c < 3; ++c)
-      material.base_color[c] = static_cast<float>(source.diffuse[c]);
+    for (int c = 0; c < 3; ++c) material.base_color[c] = static_cast<float>(source.diffuse[c]);
     material.base_color[3] = static_cast<float>(source.dissolve);
     if (!source.alpha_texname.empty()) {
       material.alpha_mode = AlphaMode::mask;

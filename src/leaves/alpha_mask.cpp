@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace leafhull::leaves {
+namespace leafhull {
 namespace {
 
 constexpr double kBlendCutoff = 0.5;
@@ -53,9 +53,9 @@ std::optional<TextureEllipse> AlphaMask::ellipse(const UvBox& box) {
   const double width = right - left + 1;
   const double height = bottom - top + 1;
   constexpr double kFarthest = 1e15;
-  const bool fits =
-      width * height <= kMostTexels && std::abs(left) < kFarthest && std::abs(top) < kFarthest;
-  if (!(width >= 1 && height >= 1 && fits)) return {};
+  const bool fits = width >= 1 && height >= 1 && width * height <= kMostTexels &&
+                    std::abs(left) < kFarthest && std::abs(top) < kFarthest;
+  if (!fits) return {};
 
   const auto texel = [](double index) { return static_cast<std::int64_t>(index); };
   const Texels texels{texel(left), texel(right), texel(top), texel(bottom)};
@@ -104,4 +104,4 @@ std::optional<TextureEllipse> AlphaMask::moments(const Texels& texels) const {
   return TextureEllipse{{centre.x(), centre.y()}, half_axis(1), half_axis(0)};
 }
 
-}  // namespace leafhull::leaves
+}  // namespace leafhull

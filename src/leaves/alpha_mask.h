@@ -9,7 +9,7 @@
 
 #include "leafhull/leaves.h"
 
-namespace leafhull::leaves {
+namespace leafhull {
 
 /// A rectangle in texture space, bounds included.
 struct UvBox {
@@ -44,4 +44,4 @@ class AlphaMask {
   std::map<Texels, std::optional<TextureEllipse>> ellipses_;
 };
 
-}  // namespace leafhull::leaves
+}  // namespace leafhull

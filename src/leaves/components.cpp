@@ -8,7 +8,7 @@
 
 #include "leaves/leaf_mesh.h"
 
-namespace leafhull::leaves {
+namespace leafhull {
 namespace {
 
 // Just below cos 45 degrees: an edge of exactly 45 degrees is not cut, whatever the rounding.
@@ -185,4 +185,4 @@ FaceGroups split_into_triangles(std::span<const Face> faces) {
   return {faces, labels};
 }
 
-}  // namespace leafhull::leaves
+}  // namespace leafhull

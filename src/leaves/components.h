@@ -8,7 +8,7 @@
 
 #include "leafhull/tree.h"
 
-namespace leafhull::leaves {
+namespace leafhull {
 
 struct LeafMesh;
 
@@ -54,4 +54,4 @@ FaceGroups split_at_sharp_edges(const LeafMesh& leaf);
 /// Single triangles; the front and the back of one stay together.
 FaceGroups split_into_triangles(std::span<const Face> faces);
 
-}  // namespace leafhull::leaves
+}  // namespace leafhull

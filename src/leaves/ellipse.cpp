@@ -5,7 +5,7 @@
 #include <cmath>
 #include <tuple>
 
-namespace leafhull::leaves {
+namespace leafhull {
 namespace {
 
 // Texture coordinates whose spread has a smaller determinant, relative to its squared trace, lie on
@@ -104,7 +104,7 @@ std::optional<LeafEllipse> fit_ellipse(const LeafMesh& leaf, const TextureSource
     if (const auto map = fit_map(leaf, texture.uvs, plane->normal)) {
       const auto drawn = texture.ellipse ? texture.ellipse : texture.mask->ellipse(map->box);
       if (drawn) {
-        if (const auto mapped = map_ellipse(*drawn, *map, *plane)) return mapped;
+        if (auto mapped = map_ellipse(*drawn, *map, *plane)) return mapped;
       }
     }
   }
@@ -112,4 +112,4 @@ std::optional<LeafEllipse> fit_ellipse(const LeafMesh& leaf, const TextureSource
   return LeafEllipse{plane->normal, plane->major, plane->minor, flat, false};
 }
 
-}  // namespace leafhull::leaves
+}  // namespace leafhull

@@ -8,7 +8,7 @@
 #include "leaves/alpha_mask.h"
 #include "leaves/leaf_mesh.h"
 
-namespace leafhull::leaves {
+namespace leafhull {
 
 /// Where the ellipses of a primitive's leaves may be drawn in texture space; neither: their
 /// triangles alone decide.
@@ -32,4 +32,4 @@ struct LeafEllipse {
 /// leaf without area or with values that are not finite. SPEC: 1, "The leaf's ellipse".
 std::optional<LeafEllipse> fit_ellipse(const LeafMesh& leaf, const TextureSource& texture);
 
-}  // namespace leafhull::leaves
+}  // namespace leafhull

@@ -18,8 +18,6 @@
 namespace leafhull {
 namespace {
 
-using namespace leaves;
-
 Vec3f to_vec3f(const Eigen::Vector3d& v) { return Vec3f(Vec3d(v.x(), v.y(), v.z())); }
 
 void check(const LeafOptions& options) {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <tuple>
 
-namespace leafhull::leaves {
+namespace leafhull {
 namespace {
 
 // The length below which what is left of unit vectors is round-off.
@@ -98,4 +98,4 @@ Eigen::Vector3d major_direction(const LeafEllipse& ellipse, const Eigen::Vector3
   return orthogonal(ellipse.minor).cross(normal).normalized();
 }
 
-}  // namespace leafhull::leaves
+}  // namespace leafhull

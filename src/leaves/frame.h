@@ -9,7 +9,7 @@
 #include "leaves/leaf_mesh.h"
 #include "leaves/placement.h"
 
-namespace leafhull::leaves {
+namespace leafhull {
 
 /// A unit normal for every point of the leaf, on the front side of its plane: the mean of the
 /// distinct ones stored there, else of the faces around it, else the plane's.
@@ -21,4 +21,4 @@ std::vector<Eigen::Vector3d> vertex_normals(const LeafMesh& leaf, std::span<cons
 /// The direction u_j: the major axis made orthogonal to the unit normal by Gram-Schmidt.
 Eigen::Vector3d major_direction(const LeafEllipse& ellipse, const Eigen::Vector3d& normal);
 
-}  // namespace leafhull::leaves
+}  // namespace leafhull

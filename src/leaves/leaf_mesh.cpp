@@ -5,7 +5,7 @@
 
 #include "leaves/placement.h"
 
-namespace leafhull::leaves {
+namespace leafhull {
 namespace {
 
 // A ratio of standard deviations below this is the round-off of a ratio of variances.
@@ -47,8 +47,9 @@ void LeafMesh::assign(const WeldedMesh& mesh, std::span<const Face> leaf_faces,
                       const Eigen::Matrix3d& linear) {
   faces = leaf_faces;
   positions.clear();
-  for (const Face& face : faces)
+  for (const Face& face : faces) {
     positions.insert(positions.end(), face.position.begin(), face.position.end());
+  }
   std::ranges::sort(positions);
   positions.erase(std::unique(positions.begin(), positions.end()), positions.end());
 
@@ -96,4 +97,4 @@ std::optional<PlaneFit> fit_plane(const LeafMesh& leaf) {
   return plane;
 }
 
-}  // namespace leafhull::leaves
+}  // namespace leafhull

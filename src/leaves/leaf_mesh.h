@@ -10,7 +10,7 @@
 
 #include "leaves/components.h"
 
-namespace leafhull::leaves {
+namespace leafhull {
 
 /// The triangles of what may be a leaf, in world directions and scale but about its own first
 /// vertex: far from the origin nothing is lost. Kept between leaves to reuse its memory.
@@ -35,4 +35,4 @@ struct PlaneFit {
 /// Least squares over the leaf's area. Nothing where it has none or is not finite.
 std::optional<PlaneFit> fit_plane(const LeafMesh& leaf);
 
-}  // namespace leafhull::leaves
+}  // namespace leafhull

@@ -6,7 +6,7 @@
 #include <numeric>
 #include <tuple>
 
-namespace leafhull::leaves {
+namespace leafhull {
 namespace {
 
 constexpr int kBitsPerAxis = 21;
@@ -98,4 +98,4 @@ void sort_vertices(LeafSet& leaves) {
   }
 }
 
-}  // namespace leafhull::leaves
+}  // namespace leafhull

@@ -5,7 +5,7 @@
 
 #include "leafhull/tree.h"
 
-namespace leafhull::leaves {
+namespace leafhull {
 
 inline Eigen::Vector3d to_eigen(const Vec3f& v) { return {v.x, v.y, v.z}; }
 
@@ -26,4 +26,4 @@ struct Placement {
   }
 };
 
-}  // namespace leafhull::leaves
+}  // namespace leafhull

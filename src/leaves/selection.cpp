@@ -118,8 +118,6 @@ std::vector<PrimitiveSummary> summarize(const TreeModel& tree, const LeafOptions
   return summary;
 }
 
-namespace leaves {
-
 std::vector<std::uint32_t> select_leaves(const TreeModel& tree, const LeafOptions& options,
                                          std::vector<std::string>& warnings) {
   std::vector<std::uint32_t> selected(tree.instances.size());
@@ -137,5 +135,4 @@ std::vector<std::uint32_t> select_leaves(const TreeModel& tree, const LeafOption
   return selected;
 }
 
-}  // namespace leaves
 }  // namespace leafhull

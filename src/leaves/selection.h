@@ -7,7 +7,7 @@
 
 #include "leafhull/leaves.h"
 
-namespace leafhull::leaves {
+namespace leafhull {
 
 /// The instances that are leaves, those of one primitive side by side; a pattern that matches
 /// nothing is named in `warnings`.
@@ -15,4 +15,4 @@ namespace leafhull::leaves {
 std::vector<std::uint32_t> select_leaves(const TreeModel& tree, const LeafOptions& options,
                                          std::vector<std::string>& warnings);
 
-}  // namespace leafhull::leaves
+}  // namespace leafhull

@@ -30,7 +30,7 @@ fs::path follow_links(const fs::path& name) {
 
 fs::path existing_folder(const fs::path& folder, const fs::path& name) {
   std::error_code error;
-  const fs::path real = fs::canonical(folder.empty() ? fs::path(".") : folder, error);
+  fs::path real = fs::canonical(folder.empty() ? fs::path(".") : folder, error);
   if (error == std::errc::no_such_file_or_directory) {
     throw Error(
         ErrorCode::output,
@@ -50,7 +50,7 @@ bool may_access(const fs::path& path, int mode) {
 fs::path resolve_destination(const fs::path& name) {
   const fs::path end = follow_links(name);
   const fs::path folder = existing_folder(end.parent_path(), name);
-  const fs::path place = folder / end.filename();
+  fs::path place = folder / end.filename();
 
   std::error_code error;
   const fs::file_status status = fs::status(place, error);
