@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <string>
 #include <vector>
@@ -29,11 +30,12 @@ struct DeviceOptions {
 /// Empty where no platform is installed.
 std::vector<DeviceInfo> list_devices(const DeviceOptions& options);
 
-/// An opened OpenCL device with leafhull's programs. One at a time uses the machine's cores: its
-/// work and TBB's never overlap.
+/// An opened OpenCL device with leafhull's programs, for one thread at a time: its work and TBB's
+/// never overlap. `threads` reaches PoCL through the environment and counts only before the
+/// process's first OpenCL call.
 class Device {
  public:
-  /// @throws Error device: none, no such one, or a program that does not build (with its log).
+  /// @throws Error device: none, no such one, or one that cannot be opened; usage: no such variant.
   explicit Device(const DeviceOptions& options);
   ~Device();
   Device(Device&&) noexcept;
@@ -43,6 +45,7 @@ class Device {
   /// The bound on host threads, 0: all cores.
   int threads() const;
 
+  /// The device room's own side of it.
   struct Engine;
   Engine& engine() { return *engine_; }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -12,7 +12,7 @@
 
 namespace leafhull {
 
-/// A leaf's ellipse drawn in texture space: its centre and two half-axis vectors.
+/// A leaf's ellipse drawn in texture space (0..1, v down): its centre and two half-axis vectors.
 struct TextureEllipse {
   Vec2d centre, a, b;
 };

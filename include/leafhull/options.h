@@ -12,6 +12,9 @@
 
 namespace leafhull {
 
+/// Crown units along the longest side of the leaves' bounding box. SPEC: 4.
+inline constexpr double kCrownUnits = 64;
+
 enum class Style { painterly, thin, fat, luft_deussen };
 enum class Method { isotropic, uncontrolled, controlled };
 enum class RadiusUnit { crown, leaf, model };

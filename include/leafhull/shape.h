@@ -7,7 +7,6 @@
 #include <memory>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "leafhull/device.h"
@@ -42,9 +41,13 @@ struct DensityStatistics {  ///< of N_iso over the leaf vertices
   double mean = 0, variance = 0, p1 = 0, p2 = 0;
 };
 
-struct Metrics {  ///< SPEC: 6; Source: section 4
-  std::uint64_t dilated_voxels = 0, inside_voxels = 0, on_voxels = 0;
-  std::uint64_t off_site_exact = 0, off_site_sampled = 0;
+/// Voxels are lattice cells. SPEC: 6; Source: section 4, Figure 9.
+struct Metrics {
+  std::uint64_t dilated_voxels = 0;    ///< inside or on, and without a leaf vertex
+  std::uint64_t inside_voxels = 0;     ///< all corners at T or above
+  std::uint64_t on_voxels = 0;         ///< some corners
+  std::uint64_t off_site_exact = 0;    ///< leaf vertices with N below T, summed there
+  std::uint64_t off_site_sampled = 0;  ///< the same, N interpolated from the lattice
 };
 
 struct Counts {
@@ -69,8 +72,8 @@ struct Report {
   Counts counts;
   DensityStatistics density;
   Metrics metrics;
-  std::vector<StageTime> seconds;  ///< in order, the total last
-  std::uint64_t peak_memory_bytes = 0;
+  std::vector<StageTime> seconds;       ///< in order, the total last
+  std::uint64_t peak_memory_bytes = 0;  ///< of the process; the caller's to set
   std::vector<std::string> warnings;
 };
 
@@ -87,8 +90,10 @@ using Progress = std::function<void(std::string_view stage, double done)>;
 
 /// The abstract shape of a tree's leaves: the stages of Figure 8, one after the other. SPEC: 2
 /// to 6.
-/// @throws Error usage: options, or a resolution that does not fit in memory; device; empty: no
-///         sample reaches the threshold, or everything is inside.
+/// @throws Error usage: options, or a resolution that does not fit in memory; input: no leaves, or
+/// a
+///         crown without extent; device: a kernel that does not build (with its log) or run; empty:
+///         no sample reaches the threshold.
 Shape extract(const LeafSet& leaves, const Options& options, Device& device,
               const Progress& progress = {});
 

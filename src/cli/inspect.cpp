@@ -10,12 +10,12 @@
 #include "cli/values.h"
 #include "cli/verb.h"
 #include "leafhull/error.h"
+#include "leafhull/options.h"
 #include "leafhull/tree.h"
 
 namespace leafhull::cli {
 namespace {
 
-constexpr double kCrownUnitsPerSide = 64;
 constexpr std::size_t kGuesses = 3;
 
 std::string_view name_of(AlphaMode mode) {
@@ -111,7 +111,7 @@ void print_fact(std::string label, const std::string& value) {
 }
 
 void print_leaves(const LeafSet& leaves) {
-  const double crown_unit = leaves.bounds.longest_side() / kCrownUnitsPerSide;
+  const double crown_unit = leaves.bounds.longest_side() / kCrownUnits;
   std::cout << '\n';
   print_fact("leaves", count(leaves.leaf_count));
   print_fact("leaf vertices", count(leaves.vertices.size()));
@@ -136,7 +136,7 @@ Json json(const LeafSet& leaves) {
           {"mean_radius_major", leaves.mean_radius_major},
           {"mean_radius_ratio", slenderness(leaves)},
           {"bounds", {{"low", json(leaves.bounds.low)}, {"high", json(leaves.bounds.high)}}},
-          {"crown_unit", leaves.bounds.longest_side() / kCrownUnitsPerSide}};
+          {"crown_unit", leaves.bounds.longest_side() / kCrownUnits}};
 }
 
 void print_json(const Arguments& arguments, const std::vector<PrimitiveSummary>& rows,

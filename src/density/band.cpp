@@ -1,11 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "density/band.h"
 
-#include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
-
-#include <algorithm>
-
 #include "density/batches.h"
 
 namespace leafhull {
@@ -24,12 +19,10 @@ std::vector<Block> find_band(const KernelHash& hash, const BandOptions& options,
     const auto decide = [&](const Block& block, std::span<const std::uint32_t> kernels,
                             const Descent::Bounds& bounds) {
       if (kernels.empty()) return false;
-      if (options.threshold && !options.dense) {
-        if (bounds.high < *options.threshold) return false;
-        if (bounds.low >= *options.threshold) {
-          found.inside.push_back(block);
-          return false;
-        }
+      if (bounds.high < options.lowest) return false;
+      if (bounds.low >= options.highest) {
+        found.inside.push_back(block);
+        return false;
       }
       if (block.edge == kBrickEdge) found.bricks.add(block.origin, kernels);
       return true;
@@ -46,8 +39,8 @@ std::vector<Block> find_band(const KernelHash& hash, const BandOptions& options,
   };
   const auto full = [](const Found& found) { return is_full(found.bricks); };
   in_batches<Found>(
-      roots, [&] { return Descent(hash, options.falloff, options.margin); }, search, join, full,
-      flush);
+      roots, group_size(hash.kernels().size()),
+      [&] { return Descent(hash, options.falloff, options.margin); }, search, join, full, flush);
   return inside;
 }
 

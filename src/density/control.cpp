@@ -45,10 +45,9 @@ std::vector<Kernel> isotropic_kernels(std::span<const LeafVertex> leaves, double
 }
 
 double anisotropy(double n, const DensityStatistics& statistics) {
-  const auto [mean, variance, p1, p2] = statistics;
-  if (n <= p1) return 0;
-  if (n >= p2) return 1;
-  return (n - p1) / (p2 - p1);
+  if (n <= statistics.p1) return 0;
+  if (n >= statistics.p2) return 1;
+  return (n - statistics.p1) / (statistics.p2 - statistics.p1);
 }
 
 std::vector<Kernel> controlled_kernels(std::span<const LeafVertex> leaves,

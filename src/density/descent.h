@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
 #include "density/bounds.h"
 #include "density/kernel_hash.h"
+#include "leafhull/error.h"
 
 namespace leafhull {
 
@@ -18,7 +21,12 @@ struct BrickList {
   std::vector<std::uint32_t> kernels;
 
   std::size_t size() const { return origins.size(); }
+  /// @throws Error usage where the lists outgrow 32 bits.
   void add(Coord origin, std::span<const std::uint32_t> near) {
+    if (kernels.size() + near.size() > std::numeric_limits<std::uint32_t>::max()) {
+      throw Error(ErrorCode::usage, "too many kernels reach one place",
+                  "Lower --radius-max or --leaf-scale.");
+    }
     origins.push_back(origin);
     kernels.insert(kernels.end(), near.begin(), near.end());
     first.push_back(static_cast<std::uint32_t>(kernels.size()));

@@ -111,7 +111,8 @@ void find_kernels_near(const KernelHash& hash, std::span<const Vec3d> points, in
   constexpr int kMargin =
       1;  // a point may move within its cell, whose upper faces are the next brick's
   in_batches<PointBatch>(
-      roots, [&] { return Descent(hash, falloff, kMargin); }, search, join, full, flush);
+      roots, group_size(hash.kernels().size()), [&] { return Descent(hash, falloff, kMargin); },
+      search, join, full, flush);
 }
 
 }  // namespace leafhull

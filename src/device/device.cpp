@@ -74,6 +74,14 @@ Found describe(const cl::Platform& platform, const cl::Device& device) {
   return {info, device};
 }
 
+/// A device whose driver fails to describe it.
+Found unanswering(const cl::Device& device, const cl::Error& error) {
+  DeviceInfo info;
+  info.name = "unknown";
+  info.reason = std::string("does not answer: ") + error.what() + " failed";
+  return {info, device};
+}
+
 std::vector<Found> find_devices() {
   std::vector<Found> found;
   std::vector<cl::Platform> platforms;
@@ -89,7 +97,13 @@ std::vector<Found> find_devices() {
     } catch (const cl::Error&) {
       continue;  // a platform without devices
     }
-    for (const cl::Device& device : devices) found.push_back(describe(platform, device));
+    for (const cl::Device& device : devices) {
+      try {
+        found.push_back(describe(platform, device));
+      } catch (const cl::Error& error) {
+        found.push_back(unanswering(device, error));
+      }
+    }
   }
   return found;
 }

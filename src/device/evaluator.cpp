@@ -91,6 +91,7 @@ struct Evaluator::Impl {
     try {
       return work();
     } catch (const cl::Error& error) {
+      clFinish(engine.queue());  // nothing may still use the host's buffers
       throw Error(ErrorCode::device,
                   std::string(what) + " failed on '" + engine.info.name + "': " + error.what() +
                       " returned " + std::to_string(error.err()),
@@ -103,6 +104,9 @@ struct Evaluator::Impl {
   template <class T>
   cl::Buffer buffer(std::span<T> values, cl_mem_flags access) {
     if (values.empty()) return cl::Buffer(engine.context, access, 1);
+    if (access == CL_MEM_WRITE_ONLY && !engine.shares_memory()) {
+      return cl::Buffer(engine.context, access, values.size_bytes());
+    }
     const cl_mem_flags place = engine.shares_memory() ? CL_MEM_USE_HOST_PTR : CL_MEM_COPY_HOST_PTR;
     return cl::Buffer(engine.context, access | place, values.size_bytes(),
                       const_cast<std::remove_const_t<T>*>(values.data()));

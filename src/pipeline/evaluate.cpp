@@ -50,8 +50,10 @@ std::vector<float> DensityFunction::interpolated_at(std::span<const Vec3d> point
   return density;
 }
 
-DensityFunction::Sampled DensityFunction::sample_band(const BandOptions& options, double threshold,
+DensityFunction::Sampled DensityFunction::sample_band(double threshold, int margin, bool dense,
                                                       const std::function<void(double)>& advance) {
+  BandOptions options{.falloff = falloff_, .margin = margin};
+  if (!dense) options.lowest = options.highest = threshold;
   Sampled result;
   Field& field = result.field;
   field.lattice = hash_.lattice();

@@ -21,8 +21,6 @@ class DensityFunction {
                   int falloff)
       : hash_(kernels, lattice), evaluator_(device, kernels, lattice, falloff), falloff_(falloff) {}
 
-  const KernelHash& hash() const { return hash_; }
-
   /// N at points given in voxels from the lattice's anchor.
   std::vector<float> at(std::span<const Vec3d> points);
 
@@ -34,8 +32,9 @@ class DensityFunction {
     Field field;
     std::uint64_t pairs = 0;  ///< kernel-sample pairs evaluated
   };
-  /// N where the surface N = threshold may be. `advance` is told the share that is done.
-  Sampled sample_band(const BandOptions& options, double threshold,
+  /// N where the surface N = threshold may be (`dense`: wherever a support reaches), blocks being
+  /// grown by `margin` voxels before they are decided. `advance` is told the share that is done.
+  Sampled sample_band(double threshold, int margin, bool dense,
                       const std::function<void(double)>& advance);
 
   /// Moves points onto N = threshold within their cells, in at most `steps` steps, and returns the

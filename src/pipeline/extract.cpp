@@ -3,28 +3,26 @@
 #include <tbb/global_control.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <limits>
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "density/control.h"
 #include "leafhull/error.h"
 #include "leafhull/shape.h"
 #include "pipeline/evaluate.h"
+#include "pipeline/finish_mesh.h"
 #include "pipeline/grid.h"
 #include "pipeline/memory.h"
 #include "pipeline/stopwatch.h"
-#include "surface/components.h"
 #include "surface/metrics.h"
 #include "surface/polygonise.h"
 #include "surface/volume.h"
 
 namespace leafhull {
 namespace {
-
-constexpr int kSnapSteps = 12;
 
 std::vector<Vec3d> local_positions(std::span<const LeafVertex> leaves, const Lattice& lattice) {
   std::vector<Vec3d> points;
@@ -33,16 +31,25 @@ std::vector<Vec3d> local_positions(std::span<const LeafVertex> leaves, const Lat
   return points;
 }
 
-/// N_iso at the leaf vertices, summed there or, as in step 2 of the paper, interpolated.
+/// N of `kernels` at the leaf vertices, summed there.
+std::vector<float> density_at(const LeafSet& leaves, std::span<const Kernel> kernels,
+                              double radius_max, int falloff, Device& device) {
+  const Lattice lattice = leaf_lattice(leaves, radius_max);
+  DensityFunction density(device, kernels, lattice, falloff);
+  return density.at(local_positions(leaves.vertices, lattice));
+}
+
+/// N_iso at the leaf vertices, summed there or, as in step 2 of the paper, interpolated from the
+/// lattice.
 std::vector<float> isotropic_density(const LeafSet& leaves, double radius_max,
                                      const Lattice& lattice, const Options& options,
                                      Device& device) {
   const std::vector<Kernel> kernels = isotropic_kernels(leaves.vertices, radius_max);
-  const bool exact = options.density == DensitySource::exact;
-  const Lattice where = exact ? leaf_lattice(leaves, radius_max) : lattice;
-  DensityFunction density(device, kernels, where, options.falloff);
-  const std::vector<Vec3d> points = local_positions(leaves.vertices, where);
-  return exact ? density.at(points) : density.interpolated_at(points);
+  if (options.density == DensitySource::exact) {
+    return density_at(leaves, kernels, radius_max, options.falloff, device);
+  }
+  DensityFunction density(device, kernels, lattice, options.falloff);
+  return density.interpolated_at(local_positions(leaves.vertices, lattice));
 }
 
 double threshold_of(const Options& options, const DensityStatistics& statistics,
@@ -52,8 +59,8 @@ double threshold_of(const Options& options, const DensityStatistics& statistics,
                                ? *options.threshold_percent / 100 * statistics.mean
                                : threshold_for_coverage(density, *options.coverage);
   if (threshold < static_cast<double>(std::numeric_limits<float>::min())) {
-    throw Error(ErrorCode::usage, "the threshold T, " + std::to_string(threshold) + ", is zero",
-                "Raise --threshold.");
+    throw Error(ErrorCode::usage, "the threshold T is too small for a density",
+                "Raise --threshold to 1e-30 or more.");
   }
   return threshold;
 }
@@ -72,37 +79,6 @@ double threshold_of(const Options& options, const DensityStatistics& statistics,
                                                   : "Give --threshold 50% in place of --coverage";
   throw Error(ErrorCode::empty, text,
               std::string(lower) + ", enlarge --radius-max, or take a finer --resolution.");
-}
-
-/// Lattice positions in model units. The origin moves to the lattice's anchor only where a float at
-/// the scene's coordinates would be coarser than a thousandth of a voxel.
-void to_model_units(Mesh& mesh, const Lattice& lattice) {
-  double largest = 0;
-  for (const Vec3f p : mesh.positions) {
-    const Vec3d w = lattice.world(Vec3d(p));
-    largest = std::max({largest, std::fabs(w.x), std::fabs(w.y), std::fabs(w.z)});
-  }
-  constexpr double kFloatStep = 6e-8;
-  if (largest * kFloatStep > 1e-3 * lattice.voxel_size) mesh.origin = lattice.world({0, 0, 0});
-  for (Vec3f& p : mesh.positions) p = Vec3f(lattice.world(Vec3d(p)) - mesh.origin);
-}
-
-/// Where the gradient vanishes, the mean of the faces around the vertex.
-void fill_missing_normals(Mesh& mesh) {
-  std::vector<Vec3d> sum(mesh.positions.size());
-  const auto missing = [&](std::uint32_t v) { return mesh.normals[v] == Vec3f{}; };
-  for (const auto& [a, b, c] : mesh.triangles) {
-    if (!missing(a) && !missing(b) && !missing(c)) continue;
-    const Vec3d p(mesh.positions[a]);
-    const Vec3d area = cross(Vec3d(mesh.positions[b]) - p, Vec3d(mesh.positions[c]) - p);
-    for (const std::uint32_t v : {a, b, c}) sum[v] = sum[v] + area;
-  }
-  for (std::uint32_t v = 0; v < sum.size(); ++v) {
-    if (!missing(v)) continue;
-    const Vec3d mean = normalized(sum[v]);
-    mesh.normals[v] =
-        mean == Vec3d{} ? Vec3f(0, 1, 0) : Vec3f(mean);  // faces without area: any will do
-  }
 }
 
 }  // namespace
@@ -134,12 +110,8 @@ Shape extract(const LeafSet& leaves, const Options& asked, Device& device,
                                      radius_max, options);
 
   watch.start("threshold");
-  std::vector<float> density_at_leaves;
-  {
-    const Lattice where = leaf_lattice(leaves, radius_max);
-    DensityFunction density(device, shape.kernels, where, options.falloff);
-    density_at_leaves = density.at(local_positions(leaves.vertices, where));
-  }
+  const std::vector<float> density_at_leaves =
+      density_at(leaves, shape.kernels, radius_max, options.falloff, device);
   const double threshold = report.threshold =
       threshold_of(options, report.density, density_at_leaves);
 
@@ -148,8 +120,8 @@ Shape extract(const LeafSet& leaves, const Options& asked, Device& device,
   check_memory(shape.kernels, leaves.bounds, report, available_memory());
   DensityFunction density(device, shape.kernels, lattice, options.falloff);
   const int margin = options.adaptivity > 0 ? 2 : 1;  // adaptive meshing looks one sample further
-  auto [sampled, pairs] = density.sample_band({threshold, options.falloff, margin, options.dense},
-                                              threshold, [&](double done) { watch.advance(done); });
+  auto [sampled, pairs] = density.sample_band(threshold, margin, options.dense,
+                                              [&](double done) { watch.advance(done); });
   const auto field = std::make_shared<const Field>(std::move(sampled));
   shape.field = field;
 
@@ -160,12 +132,8 @@ Shape extract(const LeafSet& leaves, const Options& asked, Device& device,
   if (polygons.points.empty()) refuse_empty(*field, options, density_at_leaves);
 
   watch.start("snap");
-  shape.mesh.normals = density.snap(polygons.points, threshold, options.snap ? kSnapSteps : 0);
-  shape.mesh.triangles = triangulate(polygons);
-  shape.mesh.positions = std::move(polygons.points);
-  const ComponentCount components = drop_small_components(shape.mesh, *options.min_component);
-  fill_missing_normals(shape.mesh);
-  to_model_units(shape.mesh, lattice);
+  auto [mesh, components] = finish_mesh(std::move(polygons), density, lattice, report);
+  shape.mesh = std::move(mesh);
 
   watch.start("metrics");
   report.metrics = measure(*field, *depth, local_positions(leaves.vertices, lattice));

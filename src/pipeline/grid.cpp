@@ -12,8 +12,6 @@
 namespace leafhull {
 namespace {
 
-/// Crown units along the longest side of the leaves' bounding box. SPEC: 4.
-constexpr double kCrownUnits = 64;
 /// As for --resolution.
 constexpr double kMostVoxels = 1e6 * (1 + 1e-9);
 /// A radius beyond this many crowns is a slip, and its support a lattice without end.
@@ -38,6 +36,12 @@ std::string number(double value) {
 }
 
 void check_radii(const LeafSet& leaves, double radius_max) {
+  if (leaves.vertices.empty()) {
+    throw Error(ErrorCode::input, "there are no leaf vertices", "Give leaves that have an area.");
+  }
+  if (!std::isfinite(radius_max)) {
+    throw Error(ErrorCode::usage, "R_max is not finite", "Lower --radius-max.");
+  }
   const double crown = leaves.bounds.longest_side();
   if (crown > 0 && radius_max > kLargestRadius * crown) {
     throw Error(ErrorCode::usage,

@@ -2,6 +2,7 @@
 #include "pipeline/memory.h"
 
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -33,11 +34,19 @@ std::uint64_t meminfo_available() {
   return std::numeric_limits<std::uint64_t>::max();
 }
 
-/// What the control group (version 2) leaves; no limit where there is none.
+/// What the control group (version 2) leaves, cached files not counted as used; no limit where
+/// there is none.
 std::uint64_t cgroup_available() {
-  std::ifstream limit("/sys/fs/cgroup/memory.max"), used("/sys/fs/cgroup/memory.current");
-  std::uint64_t max = 0, current = 0;
+  const std::string folder = "/sys/fs/cgroup/";
+  std::ifstream limit(folder + "memory.max"), used(folder + "memory.current");
+  std::uint64_t max = 0, current = 0, cached = 0;
   if (!(limit >> max) || !(used >> current)) return std::numeric_limits<std::uint64_t>::max();
+  std::ifstream stat(folder + "memory.stat");
+  for (std::string line; std::getline(stat, line);) {
+    unsigned long long bytes = 0;
+    if (std::sscanf(line.c_str(), "inactive_file %llu", &bytes) == 1) cached = bytes;
+  }
+  current -= std::min(current, cached);
   return max - std::min(max, current);
 }
 
@@ -48,7 +57,7 @@ std::uint64_t address_space_available() {
       !(std::ifstream("/proc/self/statm") >> pages)) {
     return std::numeric_limits<std::uint64_t>::max();
   }
-  const std::uint64_t used = pages * 4096;
+  const std::uint64_t used = pages * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
   return limit.rlim_cur - std::min<std::uint64_t>(limit.rlim_cur, used);
 }
 
@@ -64,7 +73,9 @@ double evaluated_samples(std::span<const Kernel> kernels, const Box& bounds, dou
                          const Report& report) {
   const KernelHash hash(kernels, Lattice::near(bounds.low, h));
   double bricks = 0;
-  find_band(hash, {report.threshold, report.options.falloff, 1, report.options.dense},
+  BandOptions options{.falloff = report.options.falloff};
+  if (!report.options.dense) options.lowest = options.highest = report.threshold;
+  find_band(hash, options,
             [&](const BrickList& list, double) { bricks += static_cast<double>(list.size()); });
   return bricks * kBrickSamples;
 }
@@ -83,8 +94,7 @@ void check_memory(std::span<const Kernel> kernels, const Box& bounds, const Repo
   const double dense = dense_samples(bounds, report.radius_max_model, report.voxel_size);
   if (fits(dense)) return;
 
-  // More than 1, or `dense` would fit.
-  const double finer = report.resolution / kCoarseResolution;
+  const double finer = std::max(1.0, report.resolution / kCoarseResolution);
   const double power = report.options.dense ? kDensePower : kBandPower;
   const double needed = evaluated_samples(kernels, bounds, report.voxel_size * finer, report) *
                         std::pow(finer, power) * kBytesPerVoxel;

@@ -15,6 +15,12 @@ Polygons polygonise(const openvdb::FloatGrid& depth, double adaptivity) {
     const openvdb::Vec3s& p = mesher.pointList()[i];
     polygons.points.emplace_back(p.x(), p.y(), p.z());
   }
+  std::size_t faces = 0;
+  for (std::size_t i = 0; i < mesher.polygonPoolListSize(); ++i) {
+    const openvdb::tools::PolygonPool& pool = mesher.polygonPoolList()[i];
+    faces += pool.numQuads() + pool.numTriangles();
+  }
+  polygons.faces.reserve(faces);
   for (std::size_t i = 0; i < mesher.polygonPoolListSize(); ++i) {
     const openvdb::tools::PolygonPool& pool = mesher.polygonPoolList()[i];
     for (std::size_t q = 0; q < pool.numQuads(); ++q) {

@@ -100,7 +100,7 @@ TEST(Band, DecidesOnlyWhatTheDensityBearsOut) {
   const Lattice lattice = Lattice::near({0, 0, 0}, 0.03);
   const KernelHash hash(kernels, lattice);
   const double t = 1;
-  const Band band = band_of(hash, {t, 2, 1, false});
+  const Band band = band_of(hash, {t, t});
   EXPECT_FALSE(band.inside.empty());
   EXPECT_FALSE(band.bricks.empty());
   std::mt19937 random(5);
@@ -126,7 +126,7 @@ TEST(Band, EvaluatesBothSidesOfEveryCrossing) {
   const Lattice lattice = Lattice::near({0, 0, 0}, 0.1);
   const KernelHash hash(kernels, lattice);
   const double t = 1.5;
-  const Band band = band_of(hash, {t, 2, 1, false});
+  const Band band = band_of(hash, {t, t});
   const auto inside = [&](Coord s) {
     return reference::density(kernels, lattice.world(to_vec3d(s)), 2) >= t;
   };
@@ -151,8 +151,8 @@ TEST(Band, EvaluatesBothSidesOfEveryCrossing) {
 TEST(Band, BrickListsAreThoseOfTheDenseSearch) {
   const auto kernels = random_kernels(800, 6, 0.3f, kFar);
   const KernelHash hash(kernels, Lattice::near(kFar, 0.1));
-  const Band band = band_of(hash, {1.5, 2, 1, false});
-  const Band dense = band_of(hash, {1.5, 2, 1, true});
+  const Band band = band_of(hash, {1.5, 1.5});
+  const Band dense = band_of(hash, {});
   EXPECT_GT(dense.bricks.size(), band.bricks.size());
   for (const auto& [origin, list] : band.bricks) {
     ASSERT_TRUE(dense.bricks.count(origin));

@@ -41,7 +41,7 @@ TEST_P(EvaluatorTest, SamplesAgreeWithFloat64) {
     Evaluator evaluator(chosen(), kernels, lattice, falloff());
     double worst = 0;
     std::uint64_t pairs = 0, compared = 0;
-    find_band(hash, {std::nullopt, falloff(), 1, true}, [&](const BrickList& bricks, double) {
+    find_band(hash, {.falloff = falloff()}, [&](const BrickList& bricks, double) {
       std::vector<float> samples(bricks.size() * kBrickSamples);
       pairs += evaluator.sample(bricks, samples);
       for (std::size_t b = 0; b < bricks.size(); b += 5) {
@@ -135,7 +135,7 @@ TEST(Device, VariantsAgreeToRounding) {
   const KernelHash hash(kernels, lattice);
   Evaluator vector(device("vector"), kernels, lattice, 2);
   Evaluator work_item(device("work-item"), kernels, lattice, 2);
-  find_band(hash, {std::nullopt, 2, 1, true}, [&](const BrickList& bricks, double) {
+  find_band(hash, {}, [&](const BrickList& bricks, double) {
     std::vector<float> a(bricks.size() * kBrickSamples), b(a.size());
     const auto pairs = vector.sample(bricks, a);
     EXPECT_LT(pairs, work_item.sample(bricks, b)) << "sub-bricks are not culled";
@@ -153,12 +153,11 @@ TEST(Device, ThinKernelsLoseNoSamples) {
   const Lattice lattice = Lattice::near({0, 0, 0}, 0.5);
   Evaluator evaluator(device("vector"), kernels, lattice, 2);
   int ones = 0, others = 0;
-  find_band(KernelHash(kernels, lattice), {std::nullopt, 2, 1, true},
-            [&](const BrickList& bricks, double) {
-              std::vector<float> samples(bricks.size() * kBrickSamples);
-              evaluator.sample(bricks, samples);
-              for (const float n : samples) n == 1 ? ++ones : others += n != 0;
-            });
+  find_band(KernelHash(kernels, lattice), {}, [&](const BrickList& bricks, double) {
+    std::vector<float> samples(bricks.size() * kBrickSamples);
+    evaluator.sample(bricks, samples);
+    for (const float n : samples) n == 1 ? ++ones : others += n != 0;
+  });
   EXPECT_EQ(ones, 1);
   EXPECT_EQ(others, 0);
 }

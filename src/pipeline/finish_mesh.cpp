@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pipeline/finish_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace leafhull {
+namespace {
+
+constexpr int kSnapSteps = 12;
+
+/// Lattice positions in model units. The origin moves to the lattice's anchor only where a float at
+/// the scene's coordinates would be coarser than a thousandth of a voxel.
+void to_model_units(Mesh& mesh, const Lattice& lattice) {
+  double largest = 0;
+  for (const Vec3f p : mesh.positions) {
+    const Vec3d w = lattice.world(Vec3d(p));
+    largest = std::max({largest, std::fabs(w.x), std::fabs(w.y), std::fabs(w.z)});
+  }
+  constexpr double kFloatStep = 6e-8;
+  if (largest * kFloatStep > 1e-3 * lattice.voxel_size) mesh.origin = lattice.world({0, 0, 0});
+  for (Vec3f& p : mesh.positions) p = Vec3f(lattice.world(Vec3d(p)) - mesh.origin);
+}
+
+/// Where the gradient vanishes, the mean of the faces around the vertex.
+void fill_missing_normals(Mesh& mesh) {
+  std::vector<Vec3d> sum(mesh.positions.size());
+  const auto missing = [&](std::uint32_t v) { return mesh.normals[v] == Vec3f{}; };
+  for (const auto& [a, b, c] : mesh.triangles) {
+    if (!missing(a) && !missing(b) && !missing(c)) continue;
+    const Vec3d p(mesh.positions[a]);
+    const Vec3d area = cross(Vec3d(mesh.positions[b]) - p, Vec3d(mesh.positions[c]) - p);
+    for (const std::uint32_t v : {a, b, c}) sum[v] = sum[v] + area;
+  }
+  for (std::uint32_t v = 0; v < sum.size(); ++v) {
+    if (!missing(v)) continue;
+    const Vec3d mean = normalized(sum[v]);
+    mesh.normals[v] =
+        mean == Vec3d{} ? Vec3f(0, 1, 0) : Vec3f(mean);  // faces without area: any will do
+  }
+}
+
+}  // namespace
+
+FinishedMesh finish_mesh(Polygons polygons, DensityFunction& density, const Lattice& lattice,
+                         const Report& report) {
+  FinishedMesh finished;
+  Mesh& mesh = finished.mesh;
+  const int steps = report.options.snap ? kSnapSteps : 0;
+  mesh.normals = density.snap(polygons.points, report.threshold, steps);
+  mesh.triangles = triangulate(polygons);
+  mesh.positions = std::move(polygons.points);
+  finished.components = drop_small_components(mesh, *report.options.min_component);
+  fill_missing_normals(mesh);
+  to_model_units(mesh, lattice);
+  return finished;
+}
+
+}  // namespace leafhull
