@@ -35,12 +35,21 @@ std::string quoted(const std::string& word) {
   return text + "'";
 }
 
+/// What a name from the file shows on a terminal: control characters become ?, which also matches
+/// them in a glob.
+std::string printable(std::string name) {
+  const auto is_control = [](unsigned char c) { return c < 0x20 || c == 0x7F; };
+  std::replace_if(name.begin(), name.end(), is_control, '?');
+  return name;
+}
+
 /// A glob that matches `name`: what would be special in it matches any character.
-std::string glob_of(std::string name) {
-  for (char& c : name) {
+std::string glob_of(const std::string& name) {
+  std::string glob = printable(name);
+  for (char& c : glob) {
     if (std::string_view("*?[]\\").find(c) != std::string_view::npos) c = '?';
   }
-  return name;
+  return glob;
 }
 
 std::string first_named(const PrimitiveSummary& row) {
@@ -89,9 +98,9 @@ void print_primitives(const std::vector<PrimitiveSummary>& rows) {
   std::vector<std::vector<std::string>> lines = {
       {"material", "mesh", "node", "alpha", "instances", "vertices", "triangles", "leaf"}};
   for (const PrimitiveSummary& row : rows) {
-    lines.push_back({row.material, row.mesh, row.node, std::string(name_of(row.alpha_mode)),
-                     count(row.instances), count(row.vertices), count(row.triangles),
-                     row.leaves ? "yes" : "no"});
+    lines.push_back({printable(row.material), printable(row.mesh), printable(row.node),
+                     std::string(name_of(row.alpha_mode)), count(row.instances),
+                     count(row.vertices), count(row.triangles), row.leaves ? "yes" : "no"});
   }
   std::cout << table(lines);
 }

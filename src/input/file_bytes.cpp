@@ -5,20 +5,34 @@
 #include <charconv>
 #include <cstdio>
 #include <memory>
+#include <new>
 #include <system_error>
 
 namespace leafhull {
+namespace {
 
-Bytes read_file(const std::filesystem::path& path) {
+namespace fs = std::filesystem;
+
+[[noreturn]] void fail(std::error_code error) { throw FileError(error.message()); }
+
+void check_kind(const fs::path& path, Pipes pipes) {
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (error) fail(error);
+  if (fs::is_directory(status)) fail(std::make_error_code(std::errc::is_a_directory));
+  const bool is_read = fs::is_regular_file(status) || (fs::is_fifo(status) && pipes == Pipes::read);
+  if (!is_read) throw FileError("it is not a regular file");
+}
+
+Bytes read_to_end(const fs::path& path) {
   const auto check = [](bool good) {
-    if (!good) throw std::system_error(errno, std::generic_category());
+    if (!good) fail({errno, std::generic_category()});
   };
-  // A folder opens like a file and fails at the first read, with EISDIR.
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"),
                                                              &std::fclose);
   check(file != nullptr);
   std::error_code unknown_size;
-  const std::uintmax_t expected = std::filesystem::file_size(path, unknown_size);
+  const std::uintmax_t expected = fs::file_size(path, unknown_size);
 
   Bytes bytes(unknown_size ? 0 : expected);
   std::size_t length = 0;
@@ -31,6 +45,19 @@ Bytes read_file(const std::filesystem::path& path) {
   }
   bytes.resize(length);
   return bytes;
+}
+
+constexpr const char* kTooLarge = "it is too large for the memory";
+
+}  // namespace
+
+Bytes read_file(const fs::path& path, Pipes pipes) try {
+  check_kind(path, pipes);
+  return read_to_end(path);
+} catch (const std::bad_alloc&) {
+  throw FileError(kTooLarge);
+} catch (const std::length_error&) {
+  throw FileError(kTooLarge);
 }
 
 std::string percent_decoded(std::string_view uri) {

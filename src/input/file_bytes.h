@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,9 +14,16 @@ namespace leafhull {
 using Bytes = std::vector<std::uint8_t>;
 using ByteSpan = std::span<const std::uint8_t>;
 
-/// The whole of a file.
-/// @throws std::system_error: why it cannot be read, in the system's words.
-Bytes read_file(const std::filesystem::path& path);
+/// Why a file cannot be read.
+struct FileError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+enum class Pipes { refused, read };
+
+/// The whole of a regular file, or of a pipe where these are read: others may never end.
+/// @throws FileError.
+Bytes read_file(const std::filesystem::path& path, Pipes pipes = Pipes::refused);
 
 inline std::string_view text_of(ByteSpan bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};

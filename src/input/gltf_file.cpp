@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <system_error>
 
 #include "input/gltf_document.h"
 
@@ -150,8 +149,8 @@ Bytes load_uri(const GltfFile& file, const std::string& uri, const std::string& 
   const std::filesystem::path path = *file.folder / percent_decoded(uri);
   try {
     return read_file(path);
-  } catch (const std::system_error& error) {
-    file.fail(place, in_quotes(path.string()) + " cannot be read: " + error.code().message(),
+  } catch (const FileError& error) {
+    file.fail(place, in_quotes(path.string()) + " cannot be read: " + error.what(),
               "Put the file there, or export the tree as one .glb file.");
   }
 }

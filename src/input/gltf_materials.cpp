@@ -126,21 +126,25 @@ int MaterialReader::image_of(int index, Material& material, const std::string& p
     material.wrap_u = wrap(sampler.wrapS);
     material.wrap_v = wrap(sampler.wrapT);
   }
-  return read_image(source_of(texture));
+  return read_image(source_of(texture), place_of("textures", index));
 }
 
-int MaterialReader::read_image(int index) {
+int MaterialReader::read_image(int index, const std::string& texture) {
   const auto [entry, is_new] = images_.emplace(index, static_cast<int>(tree_.images.size()));
   if (!is_new) return entry->second;
-  const std::string place = place_of("images", index);
+  const std::string place = index < 0 ? texture : place_of("images", index);
   Image image;
   std::string reason;
-  if (!is_index(index, file_.model.images.size())) {
+  if (index < 0) {
+    reason = "it names no image";
+  } else if (!is_index(index, file_.model.images.size())) {
     reason = "there is no such image";
   } else {
     try {
       const tinygltf::Image& source = file_.model.images[index];
-      if (source.bufferView >= 0) {
+      if (source.bufferView < 0 && source.uri.empty()) {
+        reason = "it has neither a uri nor a bufferView";
+      } else if (source.bufferView >= 0) {
         image = decode_image(view_bytes(file_, source.bufferView, place), source.name, reason);
       } else {
         image = decode_image(load_uri(file_, source.uri, place), source.uri, reason);

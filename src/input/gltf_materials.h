@@ -40,7 +40,7 @@ class MaterialReader {
 
   BaseColor read_base_color(const tinygltf::Material& from, Material& to) const;
   int image_of(int texture, Material& material, const std::string& place);
-  int read_image(int image);
+  int read_image(int image, const std::string& texture);
 
   GltfFile& file_;
   TreeModel& tree_;

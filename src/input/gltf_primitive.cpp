@@ -122,7 +122,7 @@ class PrimitiveReader {
     primitive.triangles = triangles_of(vertices, source_.mode);
   }
 
-  void check(Primitive& primitive) {
+  void check(const Primitive& primitive) {
     const std::size_t count = primitive.positions.size();
     const auto bad =
         std::ranges::find_if_not(primitive.positions, [](Vec3f p) { return is_finite(p); });
@@ -130,7 +130,7 @@ class PrimitiveReader {
       file_.fail(place_,
                  "the POSITION of vertex " + std::to_string(bad - primitive.positions.begin()) +
                      " in mesh " + in_quotes(primitive.mesh_name) + " is not finite",
-                 "Repair the mesh in the program that made it, then export it again.");
+                 kRepairMesh);
     }
     for (const Triangle& triangle : primitive.triangles) {
       for (const std::uint32_t vertex : triangle) {
@@ -145,15 +145,15 @@ class PrimitiveReader {
   }
 
   template <class Vector>
-  void check_attribute(std::vector<Vector>& values, std::size_t count, const std::string& what) {
+  void check_attribute(const std::vector<Vector>& values, std::size_t count,
+                       const std::string& what) {
     if (values.empty()) return;
     if (values.size() != count) {
       file_.fail(place_, "has " + std::to_string(values.size()) + ' ' + what + " for " +
                              std::to_string(count) + " vertices");
     }
     if (std::ranges::all_of(values, [](Vector v) { return is_finite(v); })) return;
-    warnings_.push_back(place_ + ": its " + what + " are not finite and were passed over");
-    values.clear();
+    warnings_.push_back(place_ + ", " + what + ": " + std::string(kNotAllFinite));
   }
 
   GltfFile& file_;

@@ -10,6 +10,14 @@ namespace leafhull {
 inline constexpr std::string_view kExportAgain =
     "Export the tree again; the Khronos glTF validator lists what is wrong in a glTF file.";
 
+/// What helps where a mesh is not made of numbers.
+inline constexpr std::string_view kRepairMesh =
+    "Repair the mesh in the program that made it, then export it again.";
+
+/// A warning, after what it is about.
+inline constexpr std::string_view kNotAllFinite =
+    "not all values are finite; leaves that hold such a value are dropped";
+
 /// @throws Error input, always: "file: place: what", the place left out where it is empty.
 [[noreturn]] void input_error(std::string_view file, std::string_view place, std::string_view what,
                               std::string_view remedy = kExportAgain);

@@ -12,6 +12,7 @@
 
 #include "input/input_error.h"
 #include "input/obj_materials.h"
+#include "input/obj_vertices.h"
 #include "input/polygon.h"
 #include "input/tinyobj_double.h"
 
@@ -32,20 +33,8 @@ struct Part {
   std::vector<std::size_t> faces{};  // where each ends in `corners`
 };
 
-// tinyobjloader reads what is not a number as zero.
-void check_positions(std::string_view text, const std::string& file) {
-  for (std::size_t number = 1; !text.empty(); ++number) {
-    const std::size_t end = std::min(text.find('\n'), text.size() - 1);
-    const std::string_view line = text.substr(0, end);
-    if (line.starts_with("v ") &&
-        line.find_first_not_of("+-.0123456789eE \t\r", 1) != std::string_view::npos) {
-      input_error(file, "line " + std::to_string(number),
-                  in_quotes(line) + " is not a vertex of finite numbers",
-                  "Repair the mesh in the program that made it, then export it again.");
-    }
-    text.remove_prefix(end + 1);
-  }
-}
+constexpr std::string_view kExportObjAgain =
+    "Export the tree again, as OBJ with all its vertices or as a .glb file.";
 
 /// Collects the file as tinyobjloader goes through it. Its own triangulation loses concave
 /// polygons.
@@ -56,13 +45,9 @@ class Collector {
 
   void run(std::string_view text) {
     tinyobj_double::callback_t callback;
-    callback.vertex_cb = [](void* self, auto x, auto y, auto z, auto) {
-      of(self).positions.push_back({x, y, z});
-    };
-    callback.normal_cb = [](void* self, auto x, auto y, auto z) {
-      of(self).normals.push_back(Vec3f(Vec3d(x, y, z)));
-    };
-    callback.texcoord_cb = [](void* self, auto u, auto v, auto) { of(self).uvs.push_back({u, v}); };
+    callback.vertex_cb = [](void* self, auto...) { ++of(self).position_count_; };
+    callback.normal_cb = [](void* self, auto...) { ++of(self).normal_count_; };
+    callback.texcoord_cb = [](void* self, auto...) { ++of(self).uv_count_; };
     callback.index_cb = [](void* self, tinyobj_double::index_t* corners, int count) {
       of(self).add_face({corners, static_cast<std::size_t>(count)});
     };
@@ -87,9 +72,6 @@ class Collector {
     tinyobj_double::LoadObjWithCallback(stream, callback, this);
   }
 
-  std::vector<Vec3d> positions;
-  std::vector<Vec3f> normals;
-  std::vector<Vec2d> uvs;
   std::vector<Part> parts;
 
  private:
@@ -100,9 +82,9 @@ class Collector {
     if (corners.size() < 3) return;
     Part& part = current_part();
     for (const tinyobj_double::index_t& corner : corners) {
-      part.corners.push_back({index(corner.vertex_index, positions.size(), true),
-                              index(corner.texcoord_index, uvs.size(), false),
-                              index(corner.normal_index, normals.size(), false)});
+      part.corners.push_back({index(corner.vertex_index, position_count_, true),
+                              index(corner.texcoord_index, uv_count_, false),
+                              index(corner.normal_index, normal_count_, false)});
     }
     part.faces.push_back(part.corners.size());
   }
@@ -113,7 +95,7 @@ class Collector {
                                            : static_cast<std::int64_t>(written) - 1;
     if ((written == 0 && required) || index < -1 || (written < 0 && index < 0)) {
       input_error(file_, "face " + std::to_string(face_count_),
-                  "index " + std::to_string(written) + " names no vertex");
+                  "index " + std::to_string(written) + " names no vertex", kExportObjAgain);
     }
     return static_cast<int>(index);
   }
@@ -138,20 +120,21 @@ class Collector {
   std::string object_, group_;
   int material_ = -1;
   Part* part_ = nullptr;
-  std::size_t face_count_ = 0;
+  std::size_t position_count_ = 0, normal_count_ = 0, uv_count_ = 0, face_count_ = 0;
 };
 
 /// Turns parts into primitives around an origin.
 class PrimitiveMaker {
  public:
-  PrimitiveMaker(const Collector& obj, const ObjMaterials& materials, const std::string& file)
-      : obj_(obj), materials_(materials), file_(file) {}
+  PrimitiveMaker(const ObjVertices& vertices, const ObjMaterials& materials,
+                 const std::string& file)
+      : vertices_(vertices), materials_(materials), file_(file) {}
 
   /// Zero, or the middle of a tree so far out that floats would lose its shape.
-  Vec3d origin() const {
+  Vec3d origin(const std::vector<Part>& parts) const {
     Box box;
-    for (const Part& part : obj_.parts) {
-      for (const Corner& corner : part.corners) box.include(obj_.positions[corner.position]);
+    for (const Part& part : parts) {
+      for (const Corner& corner : part.corners) box.include(vertices_.positions[corner.position]);
     }
     const Vec3d middle = (box.low + box.high) / 2;
     return length(middle) > 16 * box.longest_side() ? middle : Vec3d{};
@@ -162,16 +145,18 @@ class PrimitiveMaker {
       return index < static_cast<std::int64_t>(count);
     };
     for (const Corner& corner : part.corners) {
-      if (!inside(corner.position, obj_.positions.size()) || !inside(corner.uv, obj_.uvs.size()) ||
-          !inside(corner.normal, obj_.normals.size())) {
+      if (!inside(corner.position, vertices_.positions.size()) ||
+          !inside(corner.uv, vertices_.uvs.size()) ||
+          !inside(corner.normal, vertices_.normals.size())) {
         input_error(file_, "a face of " + in_quotes(part.mesh_name),
-                    "index past the vertices, normals or texture coordinates of the file");
+                    "index past the vertices, normals or texture coordinates of the file",
+                    kExportObjAgain);
       }
-      const Vec3d p = obj_.positions[corner.position];
+      const Vec3d p = vertices_.positions[corner.position];
       if (!std::isfinite(static_cast<float>(p.x)) || !std::isfinite(static_cast<float>(p.y)) ||
           !std::isfinite(static_cast<float>(p.z))) {
         input_error(file_, "vertex " + std::to_string(corner.position + 1), "is not finite",
-                    "Repair the mesh in the program that made it, then export it again.");
+                    kRepairMesh);
       }
     }
   }
@@ -182,14 +167,14 @@ class PrimitiveMaker {
     primitive.material = part.material;
     const bool has_normals = std::ranges::all_of(part.corners, &has_normal);
     const bool has_uvs = std::ranges::all_of(part.corners, &has_uv);
-    std::map<Corner, std::uint32_t> vertices;
+    std::map<Corner, std::uint32_t> numbers;
     const auto vertex = [&](const Corner& corner) {
       const auto [entry, is_new] =
-          vertices.emplace(corner, static_cast<std::uint32_t>(vertices.size()));
+          numbers.emplace(corner, static_cast<std::uint32_t>(numbers.size()));
       if (is_new) {
-        primitive.positions.push_back(Vec3f(obj_.positions[corner.position] - origin));
-        if (has_normals) primitive.normals.push_back(obj_.normals[corner.normal]);
-        if (has_uvs) primitive.uvs.push_back(image_uv(part.material, obj_.uvs[corner.uv]));
+        primitive.positions.push_back(Vec3f(vertices_.positions[corner.position] - origin));
+        if (has_normals) primitive.normals.push_back(vertices_.normals[corner.normal]);
+        if (has_uvs) primitive.uvs.push_back(image_uv(part.material, vertices_.uvs[corner.uv]));
       }
       return entry->second;
     };
@@ -199,7 +184,7 @@ class PrimitiveMaker {
     for (const std::size_t end : part.faces) {
       polygon.clear();
       for (std::size_t i = begin; i < end; ++i) {
-        polygon.push_back(obj_.positions[part.corners[i].position]);
+        polygon.push_back(vertices_.positions[part.corners[i].position]);
       }
       for (const auto& [a, b, c] : triangulate(polygon)) {
         primitive.triangles.push_back({vertex(part.corners[begin + a]),
@@ -220,7 +205,7 @@ class PrimitiveMaker {
     return image_coordinates(materials_.materials[material], uv.x, uv.y);
   }
 
-  const Collector& obj_;
+  const ObjVertices& vertices_;
   const ObjMaterials& materials_;
   const std::string& file_;
 };
@@ -230,9 +215,9 @@ class PrimitiveMaker {
 TreeModel read_obj(ByteSpan bytes, const std::filesystem::path& path) {
   const std::string file = path.string();
   const std::string_view text = text_of(bytes);
-  check_positions(text, file);
 
   TreeModel tree;
+  const ObjVertices vertices = read_obj_vertices(text, file, tree.warnings);
   const std::filesystem::path folder = path.parent_path();
   ObjMaterials materials = read_material_libraries(text, folder, tree.warnings);
   Collector obj(file, materials);
@@ -242,9 +227,9 @@ TreeModel read_obj(ByteSpan bytes, const std::filesystem::path& path) {
                 "Give an OBJ file with polygons (lines that begin with f).");
   }
 
-  const PrimitiveMaker maker(obj, materials, file);
+  const PrimitiveMaker maker(vertices, materials, file);
   for (const Part& part : obj.parts) maker.check(part);
-  const Vec3d origin = maker.origin();
+  const Vec3d origin = maker.origin(obj.parts);
   Transform to_world = kIdentity;
   to_world[0][3] = origin.x;
   to_world[1][3] = origin.y;

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <sstream>
-#include <system_error>
 #include <tuple>
 #include <utility>
 
@@ -46,8 +45,8 @@ Image read_image(const std::string& name, const std::filesystem::path& folder,
   Image image;
   try {
     image = decode_image(read_file(local_path(folder, name)), name, reason);
-  } catch (const std::system_error& error) {
-    reason = error.code().message();
+  } catch (const FileError& error) {
+    reason = error.what();
   }
   if (!reason.empty()) warnings.push_back(in_quotes(name) + ": texture not read: " + reason);
   return image;
@@ -90,8 +89,8 @@ ObjMaterials read_material_libraries(std::string_view obj, const std::filesystem
       std::istringstream stream{std::string(text_of(bytes))};
       std::string warning, error;
       tinyobj_double::LoadMtl(&result.by_name, &result.materials, &stream, &warning, &error);
-    } catch (const std::system_error& error) {
-      warnings.push_back("mtllib " + in_quotes(name) + " not read: " + error.code().message());
+    } catch (const FileError& error) {
+      warnings.push_back("mtllib " + in_quotes(name) + " not read: " + error.what());
     }
   }
   return result;

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "input/polygon.h"
 
-#include <algorithm>
-#include <numeric>
+#include <utility>
 
 namespace leafhull {
 namespace {
@@ -19,38 +18,91 @@ Vec3d newell_normal(std::span<const Vec3d> polygon) {
   return normal;
 }
 
-bool is_ear(std::span<const Vec3d> polygon, const std::vector<std::uint32_t>& rest, std::size_t tip,
-            Vec3d normal) {
-  const std::size_t count = rest.size();
-  const Vec3d a = polygon[rest[(tip + count - 1) % count]];
-  const Vec3d b = polygon[rest[tip]];
-  const Vec3d c = polygon[rest[(tip + 1) % count]];
-  if (area(a, b, c, normal) <= 0) return false;
-  return std::ranges::none_of(rest, [&](std::uint32_t corner) {
-    const Vec3d p = polygon[corner];
-    return p != a && p != b && p != c && area(a, b, p, normal) >= 0 && area(b, c, p, normal) >= 0 &&
-           area(c, a, p, normal) >= 0;
-  });
-}
+/// Cuts the first ear of what is left, again and again, in time quadratic in the corners: what lies
+/// outside the triangle of a tip stays outside until a neighbour of the tip is cut.
+class EarCutter {
+ public:
+  explicit EarCutter(std::span<const Vec3d> polygon)
+      : polygon_(polygon),
+        normal_(newell_normal(polygon)),
+        count_(static_cast<std::uint32_t>(polygon.size())),
+        left_(count_),
+        previous_(count_),
+        next_(count_),
+        blocker_(count_),
+        is_cut_(count_) {
+    for (std::uint32_t i = 0; i < count_; ++i) {
+      previous_[i] = (i + count_ - 1) % count_;
+      next_[i] = (i + 1) % count_;
+    }
+    for (std::uint32_t i = 0; i < count_; ++i) examine(i);
+  }
+
+  std::vector<std::array<std::uint32_t, 3>> run() {
+    while (left_ > 3) cut(find_ear());
+    triangles_.push_back({first_, next_[first_], previous_[first_]});
+    return std::move(triangles_);
+  }
+
+ private:
+  static constexpr std::uint32_t kNotConvex = ~0u;
+
+  /// The second corner where there is none: the polygon crosses itself or has no area.
+  std::uint32_t find_ear() {
+    std::uint32_t tip = first_;
+    do {
+      if (blocker_[tip] < count_ && is_cut_[blocker_[tip]]) find_blocker(tip);
+      if (blocker_[tip] == count_) return tip;
+      tip = next_[tip];
+    } while (tip != first_);
+    return next_[first_];
+  }
+
+  void cut(std::uint32_t tip) {
+    const std::uint32_t before = previous_[tip], after = next_[tip];
+    triangles_.push_back({before, tip, after});
+    is_cut_[tip] = true;
+    next_[before] = after;
+    previous_[after] = before;
+    if (tip == first_) first_ = after;
+    --left_;
+    examine(before);
+    examine(after);
+  }
+
+  void examine(std::uint32_t tip) {
+    blocker_[tip] = 0;
+    if (area(polygon_[previous_[tip]], polygon_[tip], polygon_[next_[tip]], normal_) > 0) {
+      find_blocker(tip);
+    } else {
+      blocker_[tip] = kNotConvex;
+    }
+  }
+
+  /// Goes on to the next corner in the triangle of `tip`, or past the last.
+  void find_blocker(std::uint32_t tip) {
+    const Vec3d a = polygon_[previous_[tip]], b = polygon_[tip], c = polygon_[next_[tip]];
+    const auto is_inside = [&](Vec3d p) {
+      return p != a && p != b && p != c && area(a, b, p, normal_) >= 0 &&
+             area(b, c, p, normal_) >= 0 && area(c, a, p, normal_) >= 0;
+    };
+    std::uint32_t& i = blocker_[tip];
+    while (i < count_ && (is_cut_[i] || !is_inside(polygon_[i]))) ++i;
+  }
+
+  std::span<const Vec3d> polygon_;
+  Vec3d normal_;
+  std::uint32_t count_, left_, first_ = 0;
+  std::vector<std::uint32_t> previous_, next_;
+  std::vector<std::uint32_t> blocker_;  ///< `count_` where the corner is an ear
+  std::vector<bool> is_cut_;
+  std::vector<std::array<std::uint32_t, 3>> triangles_;
+};
 
 }  // namespace
 
 std::vector<std::array<std::uint32_t, 3>> triangulate(std::span<const Vec3d> polygon) {
-  std::vector<std::uint32_t> rest(polygon.size());
-  std::iota(rest.begin(), rest.end(), 0u);
-  const Vec3d normal = newell_normal(polygon);
-
-  std::vector<std::array<std::uint32_t, 3>> triangles;
-  while (rest.size() > 3) {
-    std::size_t tip = 0;
-    while (tip < rest.size() && !is_ear(polygon, rest, tip, normal)) ++tip;
-    if (tip == rest.size()) tip = 1;
-    const std::size_t count = rest.size();
-    triangles.push_back({rest[(tip + count - 1) % count], rest[tip], rest[(tip + 1) % count]});
-    rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(tip));
-  }
-  triangles.push_back({rest[0], rest[1], rest[2]});
-  return triangles;
+  return EarCutter(polygon).run();
 }
 
 }  // namespace leafhull

@@ -3,7 +3,6 @@
 #include <cctype>
 #include <string>
 #include <string_view>
-#include <system_error>
 
 #include "input/file_bytes.h"
 #include "input/gltf.h"
@@ -28,9 +27,9 @@ bool looks_like_gltf(std::string_view text) {
 }
 
 Bytes read_tree_file(const std::filesystem::path& path) try {
-  return read_file(path);
-} catch (const std::system_error& error) {
-  input_error(path.string(), "", "cannot be read: " + error.code().message(),
+  return read_file(path, Pipes::read);
+} catch (const FileError& error) {
+  input_error(path.string(), "", std::string("cannot be read: ") + error.what(),
               "Give the path of a .glb, .gltf or .obj file that you may read.");
 }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <string>
 
 #include "leafhull/error.h"
 #include "leafhull/leaves.h"
@@ -93,12 +94,23 @@ class LeafCollector {
   }
 
   void take_mesh(const Source& source, const std::optional<LeafEllipse>& ellipse) {
-    if (!ellipse || !append_vertices(source, *ellipse)) {
+    if (!ellipse || !is_finite(source.primitive) || !append_vertices(source, *ellipse)) {
       ++leaves_.dropped_leaves;
       return;
     }
     ++leaves_.leaf_count;
     if (source.texture.draws() && !ellipse->from_texture) ++untextured_;
+  }
+
+  /// Whether every normal and texture coordinate that `mesh_` stores is.
+  bool is_finite(const Primitive& primitive) const {
+    return std::ranges::all_of(mesh_.faces, [&](const Face& face) {
+      return std::ranges::all_of(face.vertex, [&](std::uint32_t vertex) {
+        return (primitive.normals.empty() || to_eigen(primitive.normals[vertex]).allFinite()) &&
+               (primitive.uvs.empty() ||
+                std::isfinite(primitive.uvs[vertex].x) && std::isfinite(primitive.uvs[vertex].y));
+      });
+    });
   }
 
   /// One kernel frame a vertex, or nothing where a value has no place in a float.
@@ -136,6 +148,20 @@ class LeafCollector {
   std::size_t untextured_ = 0;
 };
 
+std::string untextured_warning(std::size_t count) {
+  const std::string why = " no usable texture coordinates or nothing of the texture; ";
+  if (count == 1) return "1 leaf has" + why + "its ellipse is that of its triangles";
+  return std::to_string(count) + " leaves have" + why +
+         "their ellipses are those of their triangles";
+}
+
+std::string no_usable_leaf(std::size_t dropped, const std::string& file) {
+  const std::string which =
+      dropped == 1 ? "the one leaf of " + file + " does not have"
+                   : "none of the " + std::to_string(dropped) + " leaves of " + file + " has";
+  return which + " an area and finite values";
+}
+
 /// R_u once a leaf, in the order of the leaves' numbers.
 double mean_radius_major(const LeafSet& leaves) {
   double sum = 0;
@@ -166,15 +192,11 @@ LeafSet find_leaves(const TreeModel& tree, const LeafOptions& options) {
     }
   }
   if (leaves.vertices.empty()) {
-    throw Error(ErrorCode::input,
-                "none of the " + std::to_string(leaves.dropped_leaves) + " leaves of " +
-                    tree.path.string() + " has an area and finite coordinates",
+    throw Error(ErrorCode::input, no_usable_leaf(leaves.dropped_leaves, tree.path.string()),
                 "Look at the model with leafhull inspect, or choose other leaves with --leaves.");
   }
   if (collector.untextured() > 0) {
-    leaves.warnings.push_back(std::to_string(collector.untextured()) +
-                              " leaves have no usable texture coordinates or nothing of the "
-                              "texture; their ellipses are those of their triangles");
+    leaves.warnings.push_back(untextured_warning(collector.untextured()));
   }
   for (const LeafVertex& vertex : leaves.vertices) leaves.bounds.include(vertex.position);
   sort_vertices(leaves);

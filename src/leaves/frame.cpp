@@ -32,7 +32,6 @@ std::vector<PointNormal> distinct_normals(const LeafMesh& leaf, std::span<const 
   for (std::size_t face = 0; face < leaf.faces.size(); ++face) {
     for (int corner = 0; corner < 3; ++corner) {
       const Vec3f& n = stored[leaf.faces[face].vertex[corner]];
-      if (!to_eigen(n).allFinite()) continue;
       normals.push_back({leaf.triangles[face][corner], to_eigen(n).dot(front) < 0 ? -n : n});
     }
   }

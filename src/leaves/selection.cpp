@@ -52,6 +52,14 @@ bool is_leaf(const TreeModel& tree, const Instance& instance, const LeafOptions&
          std::ranges::any_of(kUsualNames, [&](const char* glob) { return matches(glob, names); });
 }
 
+/// A name fit for a message of one line: control characters become ?, which also matches them.
+std::string printable(std::string_view name) {
+  std::string text(name);
+  std::ranges::replace_if(
+      text, [](unsigned char c) { return c < 0x20 || c == 0x7F; }, '?');
+  return text;
+}
+
 /// "materials bark, twig; meshes trunk; nodes tree", each name once.
 std::string list_names(const TreeModel& tree) {
   static constexpr std::array kKinds{"materials", "meshes", "nodes"};
@@ -72,7 +80,7 @@ std::string list_names(const TreeModel& tree) {
         ++left_out;
         continue;
       }
-      list.append(separator).append(name);
+      list.append(separator).append(printable(name));
       separator = ", ";
       ++listed;
     }

@@ -54,6 +54,10 @@ std::string lower_extension(const fs::path& file) {
 }
 
 const ShapeFormat& format_of(const fs::path& file) {
+  if (file == kStandardOutput) {
+    throw Error(ErrorCode::usage, "shapes cannot be written to standard output",
+                "Name a file, such as shape.glb.");
+  }
   const std::string extension = lower_extension(file);
   std::string known;
   for (const ShapeFormat& format : kShapeFormats) {

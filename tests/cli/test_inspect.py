@@ -66,5 +66,11 @@ class Inspect(CommandTest):
         self.assertTrue(page["primitives"][0]["leaves"])
         self.assertEqual(page["leaves"]["leaves"], 300)
 
+    def test_control_characters_of_names(self):
+        path = self.input("odd.glb", glb.tree(*glb.cards(), material="a\x1b[2J\nb"))
+        page = self.succeed("inspect", path).stdout
+        self.assertIn("a?[2J?b", page)
+        self.assertNotIn("\x1b", page)
+
     def test_not_a_tree(self):
         self.fail_with(3, ["x.glb"], "inspect", self.input("x.glb", b"no tree"))

@@ -51,6 +51,9 @@ class Output(CommandTest):
         self.fail_with(5, ["former.obj"], *command, "-o", former, **disk(FULL))
         self.assertEqual(former.read_text(), "precious")
 
+    def test_shapes_cannot_go_to_standard_output(self):
+        self.fail_with(2, ["shapes", "standard output"], "extract", self.tree, "-o", "-")
+
     def test_full_standard_output(self):
         with open("/dev/full", "w") as full:
             for arguments in (

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -230,13 +232,41 @@ TEST(BadInput, HarmlessRequiredExtensionsAreAccepted) {
   EXPECT_NO_THROW(read_gltf(b.glb(), "t.glb", {}));
 }
 
-TEST(BadInput, NormalsThatAreNotFiniteArePassedOver) {
+TEST(BadInput, NormalsThatAreNotFiniteAreKept) {
   GlbBuilder b = plain();
   poke(b, 1, 4, std::numeric_limits<float>::quiet_NaN());
   const TreeModel tree = read_gltf(b.glb(), "t.glb", {});
-  EXPECT_TRUE(tree.primitives[0].normals.empty());
+  ASSERT_EQ(tree.primitives[0].normals.size(), 4u);
+  EXPECT_TRUE(std::isnan(tree.primitives[0].normals[0].y));
+  EXPECT_EQ(tree.primitives[0].normals[1].z, 1);
   ASSERT_EQ(tree.warnings.size(), 1u);
   EXPECT_NE(tree.warnings[0].find("normals"), std::string::npos);
+}
+
+TEST(BadInput, WhatMayNeverEndIsNotRead) {
+  expect_error([] { read_tree("/dev/zero"); }, "/dev/zero: cannot be read: it is not a regular");
+  const TemporaryFolder folder;
+  ASSERT_EQ(mkfifo((folder / "pipe").c_str(), 0600), 0);
+  GlbBuilder b = plain();
+  for (const std::string uri : {"pipe", "/dev/zero"}) {
+    b.json["buffers"] = {{{"byteLength", 4}, {"uri", uri}}};
+    expect_error([&] { read_gltf(b.glb(), "t.glb", folder.path()); }, "it is not a regular file");
+  }
+}
+
+TEST(BadInput, TexturesWithoutAnImageWarn) {
+  const auto warning = [](const json& texture) {
+    GlbBuilder b = plain();
+    b.json["images"] = {json::object()};
+    b.json["textures"] = {texture};
+    b.json["materials"] = {{{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}}};
+    primitive(b)["material"] = 0;
+    const TreeModel tree = read_gltf(b.glb(), "t.glb", {});
+    return tree.warnings.size() == 1 ? tree.warnings[0] : "not one warning";
+  };
+  EXPECT_EQ(warning(json::object()), "textures[0]: texture not read: it names no image");
+  EXPECT_EQ(warning({{"source", 0}}),
+            "images[0]: texture not read: it has neither a uri nor a bufferView");
 }
 
 TEST(BadInput, FilesThatAreNotTrees) {

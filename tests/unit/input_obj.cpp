@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <fstream>
 
 #include "input/obj.h"
@@ -53,6 +55,19 @@ TEST(Polygon, AlwaysGivesTwoTrianglesLessThanCorners) {
   EXPECT_EQ(triangulate(std::vector<Vec3d>{{0, 0, 0}, {1, 1, 0}, {1, 0, 0}, {0, 1, 0}}).size(), 2u);
 }
 
+TEST(Polygon, ManyCornersAreQuick) {
+  std::vector<Vec3d> comb;
+  for (int i = 0; i < 10000; ++i) {
+    comb.push_back({double(i), 0, 0});
+    comb.push_back({i + 0.5, 100, 0});
+  }
+  comb.push_back({10000, 0, 0});
+  comb.push_back({10000, -1, 0});
+  comb.push_back({0, -1, 0});
+  std::ranges::reverse(comb);
+  EXPECT_NEAR(area(comb), 10000 * 51, 1e-3);
+}
+
 TEST(Obj, NamesPartsAndMaterials) {
   const TreeModel tree = read(
       "o birch\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
@@ -77,6 +92,23 @@ TEST(Obj, ReadsNormalsUvsAndRelativeIndices) {
   EXPECT_EQ(p.uvs, (std::vector<Vec2f>{{0, 0.75f}, {1, 1}, {1, 0}}));  // v down
   EXPECT_EQ(p.normals, std::vector<Vec3f>(3, Vec3f(0, 0, 1)));
   EXPECT_TRUE(read("v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n").primitives[0].uvs.empty());
+}
+
+TEST(Obj, ReadsNumbersHoweverTheyAreWritten) {
+  const TreeModel tree = read("v\t+1 .5  -2.\r  v 1e1 1E+2 1e-1 0.5\r\nv 0 0 0 # last\nf 1 2 3\n");
+  EXPECT_EQ(tree.primitives[0].positions, (std::vector<Vec3f>{{1, .5, -2}, {10, 100, .1f}, {}}));
+}
+
+TEST(Obj, KeepsValuesThatAreNotFinite) {
+  const TreeModel tree = read(
+      "v 0 0 0\nv 1 0 0\nv 1 1 0\nvt 0.5\nvt nan 0\nvt 1 1\nvn 0 0 1\nvn 1 x 0\nvn 0 1 0\n"
+      "f 1/1/1 2/2/2 3/3/3\n");
+  const Primitive& p = tree.primitives[0];
+  EXPECT_EQ(p.uvs[0], Vec2f(0.5f, 1));
+  EXPECT_TRUE(std::isnan(p.uvs[1].x));
+  EXPECT_TRUE(std::isnan(p.normals[1].y));
+  EXPECT_EQ(p.normals[2], Vec3f(0, 1, 0));
+  EXPECT_EQ(tree.warnings.size(), 2u);
 }
 
 TEST(Obj, KeepsItsPrecisionFarFromTheOrigin) {
@@ -120,6 +152,13 @@ TEST(Obj, RefusesBadFiles) {
   EXPECT_NE(error_of(vertices + "f 1 2 -4\n").find("index -4"), std::string::npos);
   EXPECT_NE(error_of(vertices + "f 0 1 2\n").find("face 1: index 0"), std::string::npos);
   EXPECT_NE(error_of("v 0 0 0\nv nan 0 0\n").find("line 2"), std::string::npos);
+  for (const char* line : {"v\tnan 1 2", "  v nan 1 2", "v 1e 2 3", "v --1 2 3", "v +-1 2 3",
+                           "v 1.0.0 2 3", "v 1 2 inf", "v 1 2 1e999", "v 1", "v", "v 1,5 2 3"}) {
+    for (const char* end : {"\n", "\r\n", "\r"}) {
+      const std::string text = std::string("v 0 0 0") + end + line + end;
+      EXPECT_NE(error_of(text).find("t.obj: line 2: "), std::string::npos) << line;
+    }
+  }
   EXPECT_NE(error_of("v 0 0 1e60\n" + vertices + "f 1 2 3\n").find("vertex 1"), std::string::npos);
   EXPECT_NE(error_of(vertices).find("holds no faces"), std::string::npos);
   EXPECT_NE(error_of("hello").find("holds no faces"), std::string::npos);

@@ -72,6 +72,15 @@ TEST(LeafSelection, GlobThatMatchesNothingIsNamed) {
   EXPECT_PRED2(contains, leaves.warnings[0], "acorn*");
 }
 
+TEST(LeafSelection, ControlCharactersOfNamesAreNotPrinted) {
+  try {
+    find_leaves(tree_with("a\x1b[31mb\nc", "crown", "top"), {});
+    FAIL() << "nothing was thrown";
+  } catch (const Error& error) {
+    EXPECT_PRED2(contains, error.what(), "a?[31mb?c");
+  }
+}
+
 TEST(LeafSelection, NoLeavesNamesWhatThereIs) {
   const TreeModel tree = tree_with("green", "crown", "top");
   try {

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "input/obj_vertices.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+
+#include "input/input_error.h"
+
+namespace leafhull {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+// Lines end with LF, CR or both, as tinyobjloader takes them.
+std::string_view take_line(std::string_view& text) {
+  const std::size_t length = std::min(text.find_first_of("\r\n"), text.size());
+  const std::string_view line = text.substr(0, length);
+  text.remove_prefix(
+      std::min(length + (text.substr(length).starts_with("\r\n") ? 2 : 1), text.size()));
+  return line;
+}
+
+std::string_view take_word(std::string_view& line) {
+  constexpr std::string_view kBlanks = " \t";
+  line.remove_prefix(std::min(line.find_first_not_of(kBlanks), line.size()));
+  const std::string_view word = line.substr(0, line.find_first_of(kBlanks));
+  line.remove_prefix(word.size());
+  return word;
+}
+
+/// NaN where the next word of the line is not a finite number.
+double take_number(std::string_view& line) {
+  std::string_view word = take_word(line);
+  if (word.starts_with('+') && !word.starts_with("+-")) word.remove_prefix(1);
+  double value = kNaN;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  const bool good = error == std::errc() && end == word.data() + word.size();
+  return good && std::isfinite(value) ? value : kNaN;
+}
+
+Vec3d take_vec3(std::string_view& line) {
+  const double x = take_number(line), y = take_number(line), z = take_number(line);
+  return {x, y, z};
+}
+
+bool is_blank(std::string_view line) { return take_word(line).empty(); }
+
+Vec2d take_uv(std::string_view& line) {
+  const double u = take_number(line);
+  return {u, is_blank(line) ? 0 : take_number(line)};
+}
+
+}  // namespace
+
+ObjVertices read_obj_vertices(std::string_view text, const std::string& file,
+                              std::vector<std::string>& warnings) {
+  ObjVertices vertices;
+  std::size_t bad_normals = 0, bad_uvs = 0;
+  for (std::size_t number = 1; !text.empty(); ++number) {
+    const std::string_view line = take_line(text);
+    std::string_view rest = line;
+    const std::string_view keyword = take_word(rest);
+    if (keyword == "v") {
+      const Vec3d p = take_vec3(rest);
+      if (std::isnan(p.x + p.y + p.z)) {
+        input_error(file, "line " + std::to_string(number),
+                    in_quotes(line) + " is not a vertex of finite numbers", kRepairMesh);
+      }
+      vertices.positions.push_back(p);
+    } else if (keyword == "vn" && !rest.empty()) {
+      const Vec3d n = take_vec3(rest);
+      bad_normals += std::isnan(n.x + n.y + n.z);
+      vertices.normals.push_back(Vec3f(n));
+    } else if (keyword == "vt" && !rest.empty()) {
+      const Vec2d uv = take_uv(rest);
+      bad_uvs += std::isnan(uv.x + uv.y);
+      vertices.uvs.push_back(uv);
+    }
+  }
+  if (bad_normals > 0) warnings.push_back("vn: " + std::string(kNotAllFinite));
+  if (bad_uvs > 0) warnings.push_back("vt: " + std::string(kNotAllFinite));
+  return vertices;
+}
+
+}  // namespace leafhull

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "leafhull/vec.h"
+
+namespace leafhull {
+
+/// The v, vn and vt lines of an OBJ file.
+struct ObjVertices {
+  std::vector<Vec3d> positions;
+  std::vector<Vec3f> normals;  ///< NaN where a line is not three numbers
+  std::vector<Vec2d> uvs;      ///< NaN where a line is not one or two numbers
+};
+
+/// tinyobjloader reads what is not a number as zero.
+/// @throws Error input: a v line is not three finite numbers.
+ObjVertices read_obj_vertices(std::string_view text, const std::string& file,
+                              std::vector<std::string>& warnings);
+
+}  // namespace leafhull
