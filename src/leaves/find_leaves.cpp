@@ -108,7 +108,7 @@ class LeafCollector {
       return std::ranges::all_of(face.vertex, [&](std::uint32_t vertex) {
         return (primitive.normals.empty() || to_eigen(primitive.normals[vertex]).allFinite()) &&
                (primitive.uvs.empty() ||
-                std::isfinite(primitive.uvs[vertex].x) && std::isfinite(primitive.uvs[vertex].y));
+                (std::isfinite(primitive.uvs[vertex].x) && std::isfinite(primitive.uvs[vertex].y)));
       });
     });
   }

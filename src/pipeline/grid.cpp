@@ -12,8 +12,10 @@
 namespace leafhull {
 namespace {
 
-/// As for --resolution.
-constexpr double kMostVoxels = 1e6 * (1 + 1e-9);
+/// Along the crown: what a lattice coordinate can count. The memory check refuses far fewer, but
+/// the isotropic density from the grid comes before it.
+constexpr double kMostVoxels = 1e9;
+constexpr double kMostVoxelsOfGridDensity = 1e6 * (1 + 1e-9);
 /// A radius beyond this many crowns is a slip, and its support a lattice without end.
 constexpr double kLargestRadius = 100;
 
@@ -60,16 +62,17 @@ void check_radii(const LeafSet& leaves, double radius_max) {
   }
 }
 
-void check_voxels(const LeafSet& leaves, double side, double voxel_size) {
+void check_voxels(const LeafSet& leaves, double side, double voxel_size, DensitySource density) {
   if (!(side > 0)) {
     throw Error(ErrorCode::input, "the crown has no extent: all leaf vertices are at one point",
                 "Repair the model, or give --radius-max with --radius-unit model.");
   }
-  if (side / voxel_size > kMostVoxels || voxel_size > side) {
+  const double most = density == DensitySource::grid ? kMostVoxelsOfGridDensity : kMostVoxels;
+  if (side / voxel_size > most || voxel_size > side) {
     throw Error(ErrorCode::usage,
                 "a voxel of " + number(voxel_size) + " does not suit a crown of " + number(side) +
                     " model units, R_max on both sides",
-                "Give a --voxel-size from " + number(side / kMostVoxels) + " to " + number(side) +
+                "Give a --voxel-size from " + number(side / most) + " to " + number(side) +
                     ", or a --resolution.");
   }
   const Box& b = leaves.bounds;
@@ -94,7 +97,7 @@ Lattice set_grid(const LeafSet& leaves, Report& report) {
   check_radii(leaves, report.radius_max_model);
   const double side = leaves.bounds.longest_side() + 2 * report.radius_max_model;
   report.voxel_size = options.voxel_size ? *options.voxel_size : side / *options.resolution;
-  check_voxels(leaves, side, report.voxel_size);
+  check_voxels(leaves, side, report.voxel_size, options.density);
   report.resolution = static_cast<int>(std::lround(side / report.voxel_size));
   return Lattice::near(leaves.bounds.low, report.voxel_size);
 }

@@ -31,7 +31,12 @@ class EvaluatorTest : public testing::TestWithParam<std::tuple<const char*, int>
 
 INSTANTIATE_TEST_SUITE_P(Variants, EvaluatorTest,
                          testing::Combine(testing::Values("vector", "work-item"),
-                                          testing::Values(1, 2, 3)));
+                                          testing::Values(1, 2, 3)),
+                         [](const auto& test) {
+                           const auto& [variant, k] = test.param;
+                           return std::string(variant[0] == 'v' ? "Vector" : "WorkItem") + "K" +
+                                  std::to_string(k);
+                         });
 
 TEST_P(EvaluatorTest, SamplesAgreeWithFloat64) {
   for (const Vec3d corner : {Vec3d{}, Vec3d{1e4, -2e4, 3e3}}) {
