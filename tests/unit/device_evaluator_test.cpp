@@ -29,14 +29,15 @@ class EvaluatorTest : public testing::TestWithParam<std::tuple<const char*, int>
   int falloff() { return std::get<1>(GetParam()); }
 };
 
+std::string name_of(const testing::TestParamInfo<EvaluatorTest::ParamType>& test) {
+  const bool vector = std::string(std::get<0>(test.param)) == "vector";
+  return (vector ? "VectorK" : "WorkItemK") + std::to_string(std::get<1>(test.param));
+}
+
 INSTANTIATE_TEST_SUITE_P(Variants, EvaluatorTest,
                          testing::Combine(testing::Values("vector", "work-item"),
                                           testing::Values(1, 2, 3)),
-                         [](const auto& test) {
-                           const auto& [variant, k] = test.param;
-                           return std::string(variant[0] == 'v' ? "Vector" : "WorkItem") + "K" +
-                                  std::to_string(k);
-                         });
+                         name_of);
 
 TEST_P(EvaluatorTest, SamplesAgreeWithFloat64) {
   for (const Vec3d corner : {Vec3d{}, Vec3d{1e4, -2e4, 3e3}}) {
