@@ -161,8 +161,7 @@ TEST(Octahedron, OfSixKernelsByHand) {
   // The world's origin is a sample, so the mesh has the octahedron's symmetry.
   const Shape wide = extract(leaves, isotropic(1.5, 1, 0.05), device());
   Box box;
-  for (const Vec3f p : wide.mesh.positions)
-    box.include(Vec3d(p));
+  for (const Vec3f p : wide.mesh.positions) box.include(Vec3d(p));
   for (const double side : {box.high.x, box.high.y, box.high.z, -box.low.x, -box.low.y}) {
     EXPECT_NEAR(side, -box.low.z, 1e-4);
   }
