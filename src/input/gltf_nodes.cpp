@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <ranges>
 
 #include "input/gltf_accessor.h"
 
@@ -127,7 +126,7 @@ std::vector<PlacedMesh> place_meshes(GltfFile& file) {
   };
   std::vector<Visit> stack;
   const auto push = [&](const std::vector<int>& nodes, const Transform& parent) {
-    for (const int node : std::views::reverse(nodes)) stack.push_back({node, parent});
+    for (auto node = nodes.rbegin(); node != nodes.rend(); ++node) stack.push_back({*node, parent});
   };
   push(root_nodes(file), kIdentity);
 
