@@ -126,7 +126,7 @@ std::vector<PlacedMesh> place_meshes(GltfFile& file) {
   };
   std::vector<Visit> stack;
   const auto push = [&](const std::vector<int>& nodes, const Transform& parent) {
-    for (auto node = nodes.rbegin(); node != nodes.rend(); ++node) stack.push_back({*node, parent});
+    for (std::size_t i = nodes.size(); i-- > 0;) stack.push_back({nodes[i], parent});
   };
   push(root_nodes(file), kIdentity);
 
