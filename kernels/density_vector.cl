@@ -18,9 +18,8 @@
 #define XI_SLACK 1.0001f
 
 typedef struct {
-  float axes[RUN][9];
-  float from_kernel[8][RUN][3];  // axes . (centre of the sub-brick - centre of the kernel)
-  uint slot[8][RUN];             // into axes
+  float8 from_kernel[RUN][3];  // U . (centre of each sub-brick - centre of the kernel)
+  uint slot[8][RUN];           // in the run, by sub-brick
   int count[8];
 } Run;
 
@@ -36,33 +35,29 @@ static void list_run(global const Kernel* kernels, global const uint* list, int 
     const float8 dx = qx - ((float)(k->cell[0] - origin.x) + k->offset[0]);
     const float8 dy = qy - ((float)(k->cell[1] - origin.y) + k->offset[1]);
     const float8 dz = qz - ((float)(k->cell[2] - origin.z) + k->offset[2]);
-    float8 xi_min = 0.0f;
-    float m[3][8];
-    for (int a = 0; a < 3; ++a) {
-      const float ax = k->axes[3 * a], ay = k->axes[3 * a + 1], az = k->axes[3 * a + 2];
-      const float e = 1.5f * POSITION_SLACK * (fabs(ax) + fabs(ay) + fabs(az));
-      const float8 ma = fma((float8)(ax), dx, fma((float8)(ay), dy, az * dz));
-      const float8 near = fmax(fabs(ma) - e, 0.0f);
-      xi_min = fma(near, near, xi_min);
-      vstore8(ma, 0, m[a]);
-      run->axes[i][3 * a] = ax;
-      run->axes[i][3 * a + 1] = ay;
-      run->axes[i][3 * a + 2] = az;
-    }
+    const float8 mx = fma((float8)(k->xx), dx, fma((float8)(k->xy), dy, k->xz * dz));
+    const float8 my = fma((float8)(k->yy), dy, k->yz * dz);
+    const float8 mz = k->zz * dz;
+    run->from_kernel[i][0] = mx;
+    run->from_kernel[i][1] = my;
+    run->from_kernel[i][2] = mz;
+    const float extent = 1.5f * POSITION_SLACK;
+    const float8 near_x = fmax(fabs(mx) - extent * (k->xx + fabs(k->xy) + fabs(k->xz)), 0.0f);
+    const float8 near_y = fmax(fabs(my) - extent * (k->yy + fabs(k->yz)), 0.0f);
+    const float8 near_z = fmax(fabs(mz) - extent * k->zz, 0.0f);
+    const float8 xi_min = fma(near_x, near_x, fma(near_y, near_y, near_z * near_z));
     int hit[8];
     vstore8(xi_min < XI_SLACK, 0, hit);
     for (int s = 0; s < 8; ++s) {
       const int n = run->count[s];
       run->slot[s][n] = i;
-      run->from_kernel[s][n][0] = m[0][s];
-      run->from_kernel[s][n][1] = m[1][s];
-      run->from_kernel[s][n][2] = m[2][s];
       run->count[s] = n - hit[s];
     }
   }
 }
 
-static void sum_run(const Run* run, int s, float16* n0, float16* n1, float16* n2, float16* n3) {
+static void sum_run(global const Kernel* kernels, global const uint* list, const Run* run, int s,
+                    float16* n0, float16* n1, float16* n2, float16* n3) {
   const float16 y = (float16)(-1.5f, -1.5f, -1.5f, -1.5f, -0.5f, -0.5f, -0.5f, -0.5f,  //
                               0.5f, 0.5f, 0.5f, 0.5f, 1.5f, 1.5f, 1.5f, 1.5f);
   const float16 z = (float16)(-1.5f, -0.5f, 0.5f, 1.5f, -1.5f, -0.5f, 0.5f, 1.5f,  //
@@ -70,22 +65,25 @@ static void sum_run(const Run* run, int s, float16* n0, float16* n1, float16* n2
   float16 acc0 = *n0, acc1 = *n1, acc2 = *n2, acc3 = *n3;
   const int count = run->count[s];
   for (int i = 0; i < count; ++i) {
-    const float* a = run->axes[run->slot[s][i]];
-    const float* m = run->from_kernel[s][i];
-    const float16 u = fma((float16)(a[1]), y, fma((float16)(a[2]), z, (float16)(m[0])));
-    const float16 v = fma((float16)(a[4]), y, fma((float16)(a[5]), z, (float16)(m[1])));
-    const float16 n = fma((float16)(a[7]), y, fma((float16)(a[8]), z, (float16)(m[2])));
-#define ADD_SLAB(acc, x)                                                   \
-  {                                                                        \
-    const float16 pu = u + x * a[0], pv = v + x * a[3], pn = n + x * a[6]; \
-    float16 w = fma(-pu, pu, (float16)(1.0f));                             \
-    w = fmax(fma(-pn, pn, fma(-pv, pv, w)), (float16)(0.0f));              \
-    acc = ADD_POWER(acc, w);                                               \
+    const uint slot = run->slot[s][i];
+    global const Kernel* k = kernels + list[slot];
+    const float* m = (const float*)run->from_kernel[slot] + s;
+    const float16 pz = fma((float16)(k->zz), z, (float16)(m[16]));
+    const float16 py = fma((float16)(k->yy), y, fma((float16)(k->yz), z, (float16)(m[8])));
+    const float16 w_yz = fma(-pz, pz, fma(-py, py, (float16)(1.0f)));
+    float16 px = fma((float16)(k->xy), y, fma((float16)(k->xz), z, (float16)(m[0] - 1.5f * k->xx)));
+#define ADD_SLAB(acc)                                            \
+  {                                                              \
+    const float16 w = fmax(fma(-px, px, w_yz), (float16)(0.0f)); \
+    acc = ADD_POWER(acc, w);                                     \
   }
-    ADD_SLAB(acc0, -1.5f)
-    ADD_SLAB(acc1, -0.5f)
-    ADD_SLAB(acc2, 0.5f)
-    ADD_SLAB(acc3, 1.5f)
+    ADD_SLAB(acc0)
+    px += k->xx;
+    ADD_SLAB(acc1)
+    px += k->xx;
+    ADD_SLAB(acc2)
+    px += k->xx;
+    ADD_SLAB(acc3)
 #undef ADD_SLAB
   }
   *n0 = acc0;
@@ -119,7 +117,7 @@ kernel void density_bricks(global const Kernel* restrict kernels,
   for (uint i = first[brick]; i < end; i += RUN) {
     list_run(kernels, list + i, (int)min((uint)RUN, end - i), origin, &run);
     for (int s = 0; s < 8; ++s) {
-      sum_run(&run, s, &n[s][0], &n[s][1], &n[s][2], &n[s][3]);
+      sum_run(kernels, list + i, &run, s, &n[s][0], &n[s][1], &n[s][2], &n[s][3]);
       evaluated += (uint)run.count[s] * 64;
     }
   }

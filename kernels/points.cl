@@ -42,16 +42,15 @@ static Sample density_at(global const Kernel* kernels, global const uint* list,
   Sample s = {REAL(0.0f), REAL(0.0f), REAL(0.0f), REAL(0.0f)};
   for (uint i = chunk->first; i < chunk->end; ++i) {
     global const Kernel* k = kernels + list[i];
-    global const float* a = k->axes;
     const real px = x - ((float)(k->cell[0] - chunk->origin[0]) + k->offset[0]);
     const real py = y - ((float)(k->cell[1] - chunk->origin[1]) + k->offset[1]);
     const real pz = z - ((float)(k->cell[2] - chunk->origin[2]) + k->offset[2]);
-    const real u = fma(REAL(a[0]), px, fma(REAL(a[1]), py, a[2] * pz));
-    const real v = fma(REAL(a[3]), px, fma(REAL(a[4]), py, a[5] * pz));
-    const real n = fma(REAL(a[6]), px, fma(REAL(a[7]), py, a[8] * pz));
-    const real w = fmax(fma(-n, n, fma(-v, v, fma(-u, u, REAL(1.0f)))), REAL(0.0f));
+    const real u = fma(REAL(k->xx), px, fma(REAL(k->xy), py, k->xz * pz));
+    const real v = fma(REAL(k->yy), py, k->yz * pz);
+    const real n = k->zz * pz;
+    const real w = fmax(fma(-u, u, fma(-n, n, fma(-v, v, REAL(1.0f)))), REAL(0.0f));
     s.density = ADD_POWER(s.density, w);
-    // grad D = -2 k w^(k-1) (u a_u + v a_v + n a_n); w = 0 leaves nothing.
+    // grad D = -2 k w^(k-1) U^T (u, v, n); w = 0 leaves nothing.
 #if FALLOFF == 1
     const real slope = select(REAL(0.0f), REAL(-2.0f), w > REAL(0.0f));
 #elif FALLOFF == 2
@@ -59,9 +58,9 @@ static Sample density_at(global const Kernel* kernels, global const uint* list,
 #else
     const real slope = -6.0f * w * w;
 #endif
-    s.dx = fma(slope, fma(REAL(a[0]), u, fma(REAL(a[3]), v, a[6] * n)), s.dx);
-    s.dy = fma(slope, fma(REAL(a[1]), u, fma(REAL(a[4]), v, a[7] * n)), s.dy);
-    s.dz = fma(slope, fma(REAL(a[2]), u, fma(REAL(a[5]), v, a[8] * n)), s.dz);
+    s.dx = fma(slope, k->xx * u, s.dx);
+    s.dy = fma(slope, fma(REAL(k->xy), u, k->yy * v), s.dy);
+    s.dz = fma(slope, fma(REAL(k->xz), u, fma(REAL(k->yz), v, k->zz * n)), s.dz);
   }
   return s;
 }

@@ -5,9 +5,9 @@
 
 namespace leafhull {
 
-std::vector<Block> find_band(const KernelHash& hash, const BandOptions& options,
+std::vector<Block> find_band(const KernelSet& kernels, const BandOptions& options,
                              const BandVisitor& visit) {
-  const std::vector<Coord> roots = hash.root_blocks(options.margin);
+  const std::vector<Coord> roots = kernels.root_blocks(options.margin);
   std::vector<Block> inside;
 
   struct Found {
@@ -16,15 +16,15 @@ std::vector<Block> find_band(const KernelHash& hash, const BandOptions& options,
   };
   const auto search = [&](Descent& descent, Coord root, Found& found) {
     const auto enter = [](const Block&) { return true; };
-    const auto decide = [&](const Block& block, std::span<const std::uint32_t> kernels,
+    const auto decide = [&](const Block& block, std::span<const std::uint32_t> near,
                             const Descent::Bounds& bounds) {
-      if (kernels.empty()) return false;
+      if (near.empty()) return false;
       if (bounds.high < options.lowest) return false;
       if (bounds.low >= options.highest) {
         found.inside.push_back(block);
         return false;
       }
-      if (block.edge == kBrickEdge) found.bricks.add(block.origin, kernels);
+      if (block.edge == kBrickEdge) found.bricks.add(block.origin, near);
       return true;
     };
     descent.from(root, enter, decide);
@@ -37,10 +37,9 @@ std::vector<Block> find_band(const KernelHash& hash, const BandOptions& options,
     all.bricks.append(found.bricks);
     all.inside.insert(all.inside.end(), found.inside.begin(), found.inside.end());
   };
-  const auto full = [](const Found& found) { return is_full(found.bricks); };
   in_batches<Found>(
-      roots, group_size(hash.kernels().size()),
-      [&] { return Descent(hash, options.falloff, options.margin); }, search, join, full, flush);
+      roots, [&] { return Descent(kernels, options.falloff, options.margin); }, search, join,
+      flush);
   return inside;
 }
 

@@ -24,7 +24,7 @@ using BandVisitor = std::function<void(const BrickList& bricks, double done)>;
 /// Finds the bricks that a surface N = T, lowest <= T <= highest, may cross, in batches of bounded
 /// size, and returns the blocks that are proven inside. The order of bricks and blocks depends on
 /// the lattice alone. SPEC: 5.
-std::vector<Block> find_band(const KernelHash& hash, const BandOptions& options,
+std::vector<Block> find_band(const KernelSet& kernels, const BandOptions& options,
                              const BandVisitor& visit);
 
 }  // namespace leafhull

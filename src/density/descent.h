@@ -7,14 +7,14 @@
 #include <span>
 #include <vector>
 
-#include "density/bounds.h"
-#include "density/kernel_hash.h"
+#include "density/kernel_set.h"
+#include "density/octants.h"
 #include "leafhull/error.h"
 
 namespace leafhull {
 
-/// The bricks of a batch and, brick by brick, the kernels that may reach it, ascending:
-/// kernels[first[b]] to kernels[first[b + 1]].
+/// The bricks of a batch and, brick by brick, the ranks of the kernels that may reach it,
+/// ascending: kernels[first[b]] to kernels[first[b + 1]].
 struct BrickList {
   std::vector<Coord> origins;
   std::vector<std::uint32_t> first{0};
@@ -39,63 +39,62 @@ struct BrickList {
   }
 };
 
-/// The way down from a root block to bricks: at each block the parent's kernels are narrowed to
-/// those that may reach it, so a brick's list does not depend on who asks for it.
+/// The way down from a root block to bricks: at each block the kernels are narrowed to those that
+/// may reach its octants, so a brick's list does not depend on who asks for it.
 class Descent {
  public:
   /// `margin`: voxels by which every block is grown before it is tested.
-  Descent(const KernelHash& hash, int falloff, int margin)
-      : hash_(hash), falloff_(falloff), margin_(margin) {}
+  Descent(const KernelSet& kernels, int falloff, int margin)
+      : kernels_(kernels), falloff_(falloff), margin_(static_cast<float>(margin)) {}
 
   /// Bounds on N over a grown block, rounding included.
   struct Bounds {
     double low = 0, high = 0;
   };
 
-  /// Calls enter(block), then visit(block, kernels, bounds), and goes on to the eight children of a
-  /// block above brick size where both answer true. Children come in lexicographic order.
+  /// From the octants of `root` downwards: calls enter(block), then visit(block, ranks, bounds),
+  /// and goes on to the octants of a block above brick size where both answer true. Octants come in
+  /// lexicographic order.
   template <class Enter, class Visit>
   void from(Coord root, Enter&& enter, Visit&& visit) {
-    const Block block{root, kRootEdge};
-    if (!enter(block)) return;
-    load(root);
-    descend(block, 0, enter, visit);
+    const Vec3d low = to_vec3d(root) - Vec3d(1, 1, 1) * margin_;
+    kernels_.gather(low, low + Vec3d(1, 1, 1) * (kRootEdge - 1 + 2 * margin_), near_root_);
+    descend({root, kRootEdge}, near_root_, 0, enter, visit);
   }
 
  private:
-  static constexpr int kLevels = 3;  // edges 32, 16, 8
-  static_assert(kRootEdge == kBrickEdge << (kLevels - 1));
-
-  /// A kernel relative to the root's origin.
-  struct Near {
-    std::array<Vec3f, 3> axes;
-    Vec3f centre;
-  };
-
-  void load(Coord root);
-  Bounds narrow(const Block& block, int level);
+  static constexpr int kLevels = 2;  // octants of edge 16 and 8
+  static_assert(kRootEdge == kBrickEdge << kLevels);
 
   template <class Enter, class Visit>
-  void descend(const Block& block, int level, Enter& enter, Visit& visit) {
-    const Bounds bounds = narrow(block, level);
-    if (!visit(block, std::span<const std::uint32_t>(kernels_[level + 1]), bounds)) return;
-    if (block.edge == kBrickEdge) return;
-    const int half = block.edge / 2;
-    for (int child = 0; child < 8; ++child) {
-      const Block part{block.origin + Coord{(child >> 2 & 1) * half, (child >> 1 & 1) * half,
-                                            (child & 1) * half},
-                       half};
-      if (enter(part)) descend(part, level + 1, enter, visit);
+  void descend(const Block& block, std::span<const std::uint32_t> ranks, int level, Enter& enter,
+               Visit& visit) {
+    const int edge = block.edge / 2;
+    OctantLists& octants = octants_[level];
+    octants.narrow(kernels_.kernels(), ranks, octants_of(block), kernels_.reach(), falloff_);
+    for (int i = 0; i < 8; ++i) {
+      const Coord corner{(i >> 2 & 1) * edge, (i >> 1 & 1) * edge, (i & 1) * edge};
+      const Block octant{block.origin + corner, edge};
+      if (!enter(octant)) continue;
+      const Bounds bounds{octants.low(i), octants.high(i)};
+      if (visit(octant, octants.list(i), bounds) && edge > kBrickEdge) {
+        descend(octant, octants.list(i), level + 1, enter, visit);
+      }
     }
   }
 
-  const KernelHash& hash_;
+  /// The samples of the octants, grown by the margin.
+  Octants octants_of(const Block& block) const {
+    const float edge = 0.5f * static_cast<float>(block.edge);
+    const float middle = edge - 0.5f;
+    return {block.origin, {middle, middle, middle}, 0.5f * edge, 0.5f * (edge - 1) + margin_};
+  }
+
+  const KernelSet& kernels_;
   int falloff_;
-  int margin_;
-  Coord root_{};
-  std::vector<Near> near_;                                        // the root's kernels
-  std::array<std::vector<std::uint32_t>, kLevels + 1> position_;  // into near_, by level
-  std::array<std::vector<std::uint32_t>, kLevels + 1> kernels_;   // the same, into the kernel set
+  float margin_;
+  std::vector<std::uint32_t> near_root_;
+  std::array<OctantLists, kLevels> octants_;
 };
 
 }  // namespace leafhull

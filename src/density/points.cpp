@@ -68,7 +68,7 @@ class Queue {
 
 }  // namespace
 
-void find_kernels_near(const KernelHash& hash, std::span<const Vec3d> points, int falloff,
+void find_kernels_near(const KernelSet& kernels, std::span<const Vec3d> points, int falloff,
                        const PointVisitor& visit) {
   const std::vector<Place> places = sorted_places(points);
   std::vector<std::span<const Place>> roots;
@@ -80,16 +80,16 @@ void find_kernels_near(const KernelHash& hash, std::span<const Vec3d> points, in
   const auto search = [&](Descent& descent, std::span<const Place> root, PointBatch& found) {
     Queue queue(root);
     const auto enter = [&](const Block& block) { return queue.any_in(block); };
-    const auto collect = [&](const Block& block, std::span<const std::uint32_t> kernels,
+    const auto collect = [&](const Block& block, std::span<const std::uint32_t> near,
                              const Descent::Bounds&) {
-      if (!kernels.empty() && block.edge > kBrickEdge) return true;
+      if (!near.empty() && block.edge > kBrickEdge) return true;
       const auto taken = queue.take(block);
-      if (kernels.empty()) return false;
+      if (near.empty()) return false;
       for (const Place& place : taken) {
         found.index.push_back(place.index);
         found.offset.push_back(Vec3f(points[place.index] - to_vec3d(block.origin)));
       }
-      found.bricks.add(block.origin, kernels);
+      found.bricks.add(block.origin, near);
       found.first_point.push_back(static_cast<std::uint32_t>(found.index.size()));
       return false;
     };
@@ -104,15 +104,13 @@ void find_kernels_near(const KernelHash& hash, std::span<const Vec3d> points, in
     all.index.insert(all.index.end(), found.index.begin(), found.index.end());
     all.offset.insert(all.offset.end(), found.offset.begin(), found.offset.end());
   };
-  const auto full = [](const PointBatch& found) { return is_full(found.bricks); };
   const auto flush = [&](const PointBatch& found, double) {
     if (!found.index.empty()) visit(found);
   };
   constexpr int kMargin =
       1;  // a point may move within its cell, whose upper faces are the next brick's
   in_batches<PointBatch>(
-      roots, group_size(hash.kernels().size()), [&] { return Descent(hash, falloff, kMargin); },
-      search, join, full, flush);
+      roots, [&] { return Descent(kernels, falloff, kMargin); }, search, join, flush);
 }
 
 }  // namespace leafhull

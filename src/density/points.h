@@ -23,7 +23,7 @@ using PointVisitor = std::function<void(const PointBatch&)>;
 
 /// Finds the kernels near each of `points` (voxels from the anchor), in batches of bounded size.
 /// Points that no support reaches are left out: N is zero there.
-void find_kernels_near(const KernelHash& hash, std::span<const Vec3d> points, int falloff,
+void find_kernels_near(const KernelSet& kernels, std::span<const Vec3d> points, int falloff,
                        const PointVisitor& visit);
 
 }  // namespace leafhull

@@ -20,15 +20,6 @@ constexpr std::size_t kWorkItems = 256;  // per brick, as in density_work_item.c
 // PoCL compiles a kernel again for grids of 65,536 groups and more.
 constexpr std::size_t kBricksPerLaunch = 1 << 15;
 
-/// `Kernel` of density.clh.
-struct DeviceKernel {
-  std::int32_t cell[3];
-  float offset[3];
-  float axes[9];
-  float unused;
-};
-static_assert(sizeof(DeviceKernel) == 64);
-
 /// `Chunk` of points.cl.
 struct Chunk {
   std::int32_t origin[3];
@@ -36,18 +27,6 @@ struct Chunk {
   std::uint32_t unused[3];
 };
 static_assert(sizeof(Chunk) == 32);
-
-DeviceKernel to_device(const LatticeKernel& kernel) {
-  DeviceKernel k{};
-  k.cell[0] = kernel.cell.x, k.cell[1] = kernel.cell.y, k.cell[2] = kernel.cell.z;
-  k.offset[0] = kernel.offset.x, k.offset[1] = kernel.offset.y, k.offset[2] = kernel.offset.z;
-  for (std::size_t a = 0; a < 3; ++a) {
-    k.axes[3 * a] = kernel.axes[a].x;
-    k.axes[3 * a + 1] = kernel.axes[a].y;
-    k.axes[3 * a + 2] = kernel.axes[a].z;
-  }
-  return k;
-}
 
 /// A batch's points in chunks of kChunk, coordinate by coordinate; the last chunk of a brick is
 /// filled up with its last point.
@@ -82,7 +61,6 @@ Chunks in_chunks(const PointBatch& batch) {
 struct Evaluator::Impl {
   Device::Engine& engine;
   std::string options;
-  std::vector<DeviceKernel> host;  // outlives `kernels`, which may use it in place
   cl::Buffer kernels;
 
   /// Runs `work`, OpenCL's exceptions told in our words.
@@ -139,14 +117,10 @@ struct Evaluator::Impl {
   }
 };
 
-Evaluator::Evaluator(Device& device, std::span<const Kernel> kernels, const Lattice& lattice,
-                     int falloff)
-    : impl_(new Impl{device.engine(), "-DFALLOFF=" + std::to_string(falloff), {}, {}}) {
-  impl_->host.reserve(kernels.size());
-  for (const Kernel& kernel : kernels) {
-    impl_->host.push_back(to_device(to_lattice(kernel, lattice)));
-  }
-  impl_->run("sending the kernels", [&] { impl_->kernels = impl_->input(impl_->host); });
+Evaluator::Evaluator(Device& device, const KernelSet& kernels, int falloff)
+    : impl_(new Impl{device.engine(), "-DFALLOFF=" + std::to_string(falloff), {}}) {
+  impl_->run("sending the kernels",
+             [&] { impl_->kernels = impl_->buffer(kernels.kernels(), CL_MEM_READ_ONLY); });
 }
 
 Evaluator::~Evaluator() = default;

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "density/local_kernel.h"
+#include "density/kernel_set.h"
 #include "density/points.h"
 #include "leafhull/device.h"
 
@@ -16,8 +16,9 @@ namespace leafhull {
 /// are there. A sum runs over its list in order, so results depend on the list alone.
 class Evaluator {
  public:
-  /// Uploads the kernels. @throws Error device, as all calls do: out of memory, a failing driver.
-  Evaluator(Device& device, std::span<const Kernel> kernels, const Lattice& lattice, int falloff);
+  /// Sends the kernels, which must outlive the evaluator, to the device. @throws Error device, as
+  /// all calls do: out of memory, a failing driver.
+  Evaluator(Device& device, const KernelSet& kernels, int falloff);
   ~Evaluator();
   Evaluator(Evaluator&&) noexcept;
 

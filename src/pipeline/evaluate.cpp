@@ -14,7 +14,7 @@ Coord corner(Coord cell, int i) { return cell + Coord{i >> 2 & 1, i >> 1 & 1, i 
 
 std::vector<float> DensityFunction::at(std::span<const Vec3d> points) {
   std::vector<float> density(points.size(), 0.0f);
-  find_kernels_near(hash_, points, falloff_, [&](const PointBatch& batch) {
+  find_kernels_near(kernels_, points, falloff_, [&](const PointBatch& batch) {
     const std::vector<float> values = evaluator_.density(batch);
     for (std::size_t i = 0; i < values.size(); ++i) density[batch.index[i]] = values[i];
   });
@@ -56,9 +56,9 @@ DensityFunction::Sampled DensityFunction::sample_band(double threshold, int marg
   if (!dense) options.lowest = options.highest = threshold;
   Sampled result;
   Field& field = result.field;
-  field.lattice = hash_.lattice();
+  field.lattice = kernels_.lattice();
   field.threshold = threshold;
-  field.inside = find_band(hash_, options, [&](const BrickList& bricks, double done) {
+  field.inside = find_band(kernels_, options, [&](const BrickList& bricks, double done) {
     const std::size_t before = field.samples.size();
     field.origins.insert(field.origins.end(), bricks.origins.begin(), bricks.origins.end());
     field.samples.resize(before + bricks.size() * kBrickSamples);
@@ -72,7 +72,7 @@ std::vector<Vec3f> DensityFunction::snap(std::span<Vec3f> points, double thresho
   std::vector<Vec3d> positions(points.size());
   std::transform(points.begin(), points.end(), positions.begin(), [](Vec3f p) { return Vec3d(p); });
   std::vector<Vec3f> normals(points.size());
-  find_kernels_near(hash_, positions, falloff_, [&](const PointBatch& batch) {
+  find_kernels_near(kernels_, positions, falloff_, [&](const PointBatch& batch) {
     const Evaluator::Snapped snapped = evaluator_.snap(batch, threshold, steps);
     for (std::size_t b = 0; b < batch.bricks.size(); ++b) {
       const Vec3d origin = to_vec3d(batch.bricks.origins[b]);

@@ -3,23 +3,29 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <span>
 #include <vector>
 
 #include "density/band.h"
 #include "density/field.h"
-#include "density/kernel_hash.h"
+#include "density/kernel_set.h"
 #include "device/evaluator.h"
 #include "leafhull/shape.h"
 
 namespace leafhull {
 
-/// A kernel set on a lattice, ready to be evaluated. `kernels` must outlive it.
+/// A kernel set on a lattice, ready to be evaluated.
 class DensityFunction {
  public:
-  DensityFunction(Device& device, std::span<const Kernel> kernels, const Lattice& lattice,
-                  int falloff)
-      : hash_(kernels, lattice), evaluator_(device, kernels, lattice, falloff), falloff_(falloff) {}
+  /// `hash` is over the centres of `kernels`.
+  DensityFunction(Device& device, std::span<const Kernel> kernels,
+                  std::shared_ptr<const SpatialHash> hash, const Lattice& lattice, int falloff)
+      : kernels_(kernels, std::move(hash), lattice),
+        evaluator_(device, kernels_, falloff),
+        falloff_(falloff) {}
+  DensityFunction(const DensityFunction&) = delete;
+  DensityFunction& operator=(const DensityFunction&) = delete;
 
   /// N at points given in voxels from the lattice's anchor.
   std::vector<float> at(std::span<const Vec3d> points);
@@ -42,7 +48,7 @@ class DensityFunction {
   std::vector<Vec3f> snap(std::span<Vec3f> points, double threshold, int steps);
 
  private:
-  KernelHash hash_;
+  KernelSet kernels_;
   Evaluator evaluator_;
   int falloff_;
 };

@@ -32,24 +32,12 @@ std::vector<Vec3d> local_positions(std::span<const LeafVertex> leaves, const Lat
 }
 
 /// N of `kernels` at the leaf vertices, summed there.
-std::vector<float> density_at(const LeafSet& leaves, std::span<const Kernel> kernels,
-                              double radius_max, int falloff, Device& device) {
-  const Lattice lattice = leaf_lattice(leaves, radius_max);
-  DensityFunction density(device, kernels, lattice, falloff);
+std::vector<float> density_at_leaves(const LeafSet& leaves, const Report& report,
+                                     std::span<const Kernel> kernels,
+                                     std::shared_ptr<const SpatialHash> hash, Device& device) {
+  const Lattice lattice = leaf_lattice(leaves, report.radius_max_model);
+  DensityFunction density(device, kernels, std::move(hash), lattice, report.options.falloff);
   return density.at(local_positions(leaves.vertices, lattice));
-}
-
-/// N_iso at the leaf vertices, summed there or, as in step 2 of the paper, interpolated from the
-/// lattice.
-std::vector<float> isotropic_density(const LeafSet& leaves, double radius_max,
-                                     const Lattice& lattice, const Options& options,
-                                     Device& device) {
-  const std::vector<Kernel> kernels = isotropic_kernels(leaves.vertices, radius_max);
-  if (options.density == DensitySource::exact) {
-    return density_at(leaves, kernels, radius_max, options.falloff, device);
-  }
-  DensityFunction density(device, kernels, lattice, options.falloff);
-  return density.interpolated_at(local_positions(leaves.vertices, lattice));
 }
 
 double threshold_of(const Options& options, const DensityStatistics& statistics,
@@ -99,9 +87,20 @@ Shape extract(const LeafSet& leaves, const Options& asked, Device& device,
   const Lattice lattice = set_grid(leaves, report);
   const double radius_max = report.radius_max_model;
 
-  // Step 2: the isotropic density at the leaf vertices.
+  watch.start("hash");
+  shape.kernels = isotropic_kernels(leaves.vertices, radius_max);
+  const auto hash =
+      std::make_shared<const SpatialHash>(shape.kernels, hash_cells(leaves, radius_max));
+
+  // Step 2: the isotropic density at the leaf vertices, summed there or, as in the paper,
+  // interpolated from the lattice.
   watch.start("isotropic density");
-  shape.isotropic_density = isotropic_density(leaves, radius_max, lattice, options, device);
+  if (options.density == DensitySource::exact) {
+    shape.isotropic_density = density_at_leaves(leaves, report, shape.kernels, hash, device);
+  } else {
+    DensityFunction density(device, shape.kernels, hash, lattice, options.falloff);
+    shape.isotropic_density = density.interpolated_at(local_positions(leaves.vertices, lattice));
+  }
 
   // Steps 3 to 5: p1 and p2, and from them the radii.
   watch.start("control");
@@ -110,15 +109,16 @@ Shape extract(const LeafSet& leaves, const Options& asked, Device& device,
                                      radius_max, options);
 
   watch.start("threshold");
-  const std::vector<float> density_at_leaves =
-      density_at(leaves, shape.kernels, radius_max, options.falloff, device);
-  const double threshold = report.threshold =
-      threshold_of(options, report.density, density_at_leaves);
+  const bool known = options.method == Method::isotropic && options.density == DensitySource::exact;
+  const std::vector<float> density_there =
+      known ? shape.isotropic_density
+            : density_at_leaves(leaves, report, shape.kernels, hash, device);
+  const double threshold = report.threshold = threshold_of(options, report.density, density_there);
 
   // Step 6: the density field, where the surface can be.
   watch.start("field");
-  check_memory(shape.kernels, leaves.bounds, report, available_memory());
-  DensityFunction density(device, shape.kernels, lattice, options.falloff);
+  check_memory(shape.kernels, hash, leaves.bounds, report, available_memory());
+  DensityFunction density(device, shape.kernels, hash, lattice, options.falloff);
   const int margin = options.adaptivity > 0 ? 2 : 1;  // adaptive meshing looks one sample further
   auto [sampled, pairs] = density.sample_band(threshold, margin, options.dense,
                                               [&](double done) { watch.advance(done); });
@@ -129,7 +129,7 @@ Shape extract(const LeafSet& leaves, const Options& asked, Device& device,
   watch.start("polygonise");
   const openvdb::FloatGrid::Ptr depth = depth_grid(*field);
   Polygons polygons = polygonise(*depth, options.adaptivity);
-  if (polygons.points.empty()) refuse_empty(*field, options, density_at_leaves);
+  if (polygons.points.empty()) refuse_empty(*field, options, density_there);
 
   watch.start("snap");
   auto [mesh, components] = finish_mesh(std::move(polygons), density, lattice, report);
@@ -138,7 +138,7 @@ Shape extract(const LeafSet& leaves, const Options& asked, Device& device,
   watch.start("metrics");
   report.metrics = measure(*field, *depth, local_positions(leaves.vertices, lattice));
   report.metrics.off_site_exact = static_cast<std::uint64_t>(
-      std::count_if(density_at_leaves.begin(), density_at_leaves.end(),
+      std::count_if(density_there.begin(), density_there.end(),
                     [&](float n) { return static_cast<double>(n) < threshold; }));
 
   report.device =

@@ -102,10 +102,15 @@ Lattice set_grid(const LeafSet& leaves, Report& report) {
   return Lattice::near(leaves.bounds.low, report.voxel_size);
 }
 
-Lattice leaf_lattice(const LeafSet& leaves, double radius_max) {
+Lattice hash_cells(const LeafSet& leaves, double radius_max) {
   constexpr double kSmallestPart = 1.0 / 256;
-  const double brick = std::max(radius_max, leaves.bounds.longest_side() * kSmallestPart);
-  return Lattice::near(leaves.bounds.low, brick / kBrickEdge);
+  const double cell = std::max(radius_max, leaves.bounds.longest_side() * kSmallestPart);
+  return Lattice::near(leaves.bounds.low, cell);
+}
+
+Lattice leaf_lattice(const LeafSet& leaves, double radius_max) {
+  const double cell = hash_cells(leaves, radius_max).voxel_size;
+  return Lattice::near(leaves.bounds.low, cell / kBrickEdge);
 }
 
 }  // namespace leafhull

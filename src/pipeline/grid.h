@@ -13,8 +13,11 @@ namespace leafhull {
 ///         input: a crown without extent, or too far from the origin for doubles to hold its shape.
 Lattice set_grid(const LeafSet& leaves, Report& report);
 
-/// The lattice for sums at leaf vertices. Its bricks are as large as R_max, or as a small part of
-/// the crown where R_max is less: what is computed there does not depend on the resolution.
+/// The cells of the spatial hash: as large as R_max, or as a small part of the crown where R_max is
+/// less. They do not depend on the resolution, so neither does the order of a sum.
+Lattice hash_cells(const LeafSet& leaves, double radius_max);
+
+/// The lattice for sums at leaf vertices; its bricks are the cells of the hash.
 Lattice leaf_lattice(const LeafSet& leaves, double radius_max);
 
 }  // namespace leafhull

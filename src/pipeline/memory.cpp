@@ -68,14 +68,12 @@ double dense_samples(const Box& bounds, double radius_max, double h) {
   return along(size.x) * along(size.y) * along(size.z);
 }
 
-/// Samples that would be evaluated at voxel size `h`.
-double evaluated_samples(std::span<const Kernel> kernels, const Box& bounds, double h,
-                         const Report& report) {
-  const KernelHash hash(kernels, Lattice::near(bounds.low, h));
+/// Samples that would be evaluated on the lattice of `kernels`.
+double evaluated_samples(const KernelSet& kernels, const Report& report) {
   double bricks = 0;
   BandOptions options{.falloff = report.options.falloff};
   if (!report.options.dense) options.lowest = options.highest = report.threshold;
-  find_band(hash, options,
+  find_band(kernels, options,
             [&](const BrickList& list, double) { bricks += static_cast<double>(list.size()); });
   return bricks * kBrickSamples;
 }
@@ -86,8 +84,8 @@ std::uint64_t available_memory() {
   return std::min({meminfo_available(), cgroup_available(), address_space_available()});
 }
 
-void check_memory(std::span<const Kernel> kernels, const Box& bounds, const Report& report,
-                  std::uint64_t available) {
+void check_memory(std::span<const Kernel> kernels, std::shared_ptr<const SpatialHash> hash,
+                  const Box& bounds, const Report& report, std::uint64_t available) {
   const auto fits = [&](double samples) {
     return samples * kBytesPerVoxel <= static_cast<double>(available);
   };
@@ -96,8 +94,9 @@ void check_memory(std::span<const Kernel> kernels, const Box& bounds, const Repo
 
   const double finer = std::max(1.0, report.resolution / kCoarseResolution);
   const double power = report.options.dense ? kDensePower : kBandPower;
-  const double needed = evaluated_samples(kernels, bounds, report.voxel_size * finer, report) *
-                        std::pow(finer, power) * kBytesPerVoxel;
+  const KernelSet coarse(kernels, std::move(hash),
+                         Lattice::near(bounds.low, report.voxel_size * finer));
+  const double needed = evaluated_samples(coarse, report) * std::pow(finer, power) * kBytesPerVoxel;
   if (needed <= static_cast<double>(available)) return;
 
   constexpr double kGiB = 1 << 30;

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 
+#include "density/spatial_hash.h"
 #include "leafhull/options.h"
 #include "leafhull/shape.h"
 
@@ -16,7 +18,7 @@ std::uint64_t available_memory();
 /// Refuses a resolution whose field and mesh would not fit, before they are allocated. What they
 /// need is judged from the bricks that a coarse lattice would evaluate.
 /// @throws Error usage: how much is needed and the largest resolution that fits.
-void check_memory(std::span<const Kernel> kernels, const Box& bounds, const Report& report,
-                  std::uint64_t available);
+void check_memory(std::span<const Kernel> kernels, std::shared_ptr<const SpatialHash> hash,
+                  const Box& bounds, const Report& report, std::uint64_t available);
 
 }  // namespace leafhull

@@ -18,52 +18,133 @@ using reference::sphere;
 
 constexpr Vec3d kFar{1e4, -2e4, 3e3};
 
-TEST(Bounds, OfASphereAndABox) {
-  const LatticeKernel kernel = to_lattice(sphere({0, 0, 0}, 2), {1, {}});
-  const Interval xi = xi_bounds(kernel.axes, {5, 0, 0}, 1);
-  EXPECT_FLOAT_EQ(xi.low, 4.0f);                   // (4 / 2)^2
-  EXPECT_FLOAT_EQ(xi.high, 9.0f + 0.25f + 0.25f);  // (6 / 2)^2 and twice (1 / 2)^2
+KernelSet on_lattice(std::span<const Kernel> kernels, const Lattice& lattice) {
+  return {kernels, reference::hash_of(kernels), lattice};
 }
 
-TEST(Bounds, HoldEverySampleOfABox) {
+/// xi from the triangular factor.
+double xi_of(const LatticeKernel& k, Vec3d local) {
+  const Vec3d d = local - to_vec3d(k.cell) - Vec3d(k.offset);
+  const double x = k.xx * d.x + k.xy * d.y + k.xz * d.z;
+  const double y = k.yy * d.y + k.yz * d.z;
+  const double z = k.zz * d.z;
+  return x * x + y * y + z * z;
+}
+
+TEST(LatticeKernel, HasTheXiOfItsAxes) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> unit(-1, 1);
-  for (const Kernel& kernel : random_kernels(200, 4)) {
-    const LatticeKernel local = to_lattice(kernel, {1, {}});
-    const Vec3d q = kernel.centre + Vec3d(unit(random), unit(random), unit(random)) * 3;
-    const Interval xi = xi_bounds(local.axes, Vec3f(q - kernel.centre), 0.5f);
-    for (int i = 0; i < 50; ++i) {
-      const Vec3d p = q + Vec3d(unit(random), unit(random), unit(random)) * 0.5;
-      const double x = reference::xi(kernel, p);
-      EXPECT_LE(xi.low, x * (1 + 1e-5) + 1e-6);
-      EXPECT_GE(xi.high, x * (1 - 1e-5) - 1e-6);
+  for (const float thinnest : {0.2f, 0.002f}) {
+    const Lattice lattice = Lattice::near(kFar, 0.25);
+    for (const Kernel& kernel : random_kernels(200, 4, thinnest, kFar)) {
+      const LatticeKernel local = to_lattice(kernel, lattice);
+      for (int i = 0; i < 20; ++i) {
+        const Vec3d d = Vec3d(unit(random), unit(random), unit(random)) * 1.5;
+        const double xi = reference::xi(kernel, kernel.centre + d);
+        // Lengths in units of the smallest radius carry the float's rounding.
+        EXPECT_NEAR(std::sqrt(xi_of(local, lattice.local(kernel.centre + d))), std::sqrt(xi),
+                    1e-6 * 1.5 / static_cast<double>(thinnest) + 1e-6);
+      }
     }
   }
 }
 
-TEST(KernelHash, GathersWhatIsNearInAscendingOrder) {
+TEST(OctantLists, OfASphereAndEightCubes) {
+  // Octants of edge 2 around (6, 1, 1), a sphere of radius 3 at the origin.
+  const std::vector<Kernel> kernels{sphere({0, 0, 0}, 3)};
+  const std::vector<LatticeKernel> local{to_lattice(kernels[0], {1, {}})};
+  const std::vector<std::uint32_t> ranks{0};
+  OctantLists octants;
+  octants.narrow(local, ranks, {{}, {3, 1, 1}, 1, 1}, 3, 1);
+  // Octant 0 is the cube from (1, -1, -1) to (3, 1, 1): 1 / 9 <= xi <= 11 / 9.
+  EXPECT_EQ(octants.list(0).size(), 1u);
+  EXPECT_NEAR(octants.high(0), 1 - 1.0 / 9, 1e-3);
+  EXPECT_GE(octants.high(0), 1 - 1.0 / 9);
+  EXPECT_EQ(octants.low(0), 0);
+  // Octant 7 is the cube from (3, 1, 1) to (5, 3, 3): beyond the sphere.
+  EXPECT_TRUE(octants.list(7).empty());
+}
+
+TEST(OctantLists, BoundEverySampleOfEveryOctant) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  const auto kernels = random_kernels(400, 3);
+  const Lattice lattice = Lattice::near({0, 0, 0}, 0.25);
+  std::vector<LatticeKernel> local;
+  std::vector<std::uint32_t> ranks;
+  for (const Kernel& kernel : kernels) {
+    ranks.push_back(static_cast<std::uint32_t>(local.size()));
+    local.push_back(to_lattice(kernel, lattice));
+  }
+  for (const int falloff : {1, 2, 3}) {
+    int undecided = 0;
+    for (int trial = 0; trial < 30; ++trial) {
+      const Vec3f centre(Vec3d(unit(random), unit(random), unit(random)) * 6 + Vec3d(6, 6, 6));
+      OctantLists octants;
+      octants.narrow(local, ranks, {{}, centre, 0.6f, 0.4f}, 4, falloff);
+      for (int o = 0; o < 8; ++o) {
+        const auto listed = octants.list(o);
+        EXPECT_TRUE(std::is_sorted(listed.begin(), listed.end()));
+        std::vector<Kernel> near;
+        for (const std::uint32_t rank : listed) near.push_back(kernels[rank]);
+        const Vec3d middle =
+            Vec3d(centre) + Vec3d(o & 4 ? 1 : -1, o & 2 ? 1 : -1, o & 1 ? 1 : -1) * 0.6;
+        for (int i = 0; i < 20; ++i) {
+          const Vec3d p =
+              lattice.world(middle + Vec3d(unit(random), unit(random), unit(random)) * 0.4);
+          const double n = reference::density(kernels, p, falloff);
+          EXPECT_LE(octants.low(o), n);
+          EXPECT_GE(octants.high(o), n);
+          EXPECT_NEAR(reference::density(near, p, falloff), n, 1e-12) << "a kernel is not listed";
+          undecided += octants.low(o) > 0 && octants.high(o) < 3 * n;
+        }
+      }
+    }
+    EXPECT_GT(undecided, 100) << "the bounds say little";
+  }
+}
+
+TEST(SpatialHash, RanksEveryKernelByCellThenIndex) {
+  const auto kernels = random_kernels(2000, 20, 0.2f, kFar);
+  const SpatialHash hash(kernels, Lattice::near(kFar, 1.5));
+  std::vector<std::uint32_t> seen(hash.order().begin(), hash.order().end());
+  for (std::size_t rank = 1; rank < seen.size(); ++rank) {
+    const auto cell = [&](std::size_t r) {
+      return cell_of(hash.cells().local(kernels[seen[r]].centre));
+    };
+    if (cell(rank) == cell(rank - 1)) {
+      EXPECT_LT(seen[rank - 1], seen[rank]);
+    }
+  }
+  std::sort(seen.begin(), seen.end());
+  for (std::uint32_t k = 0; k < kernels.size(); ++k) ASSERT_EQ(seen[k], k);
+}
+
+TEST(KernelSet, GathersWhatIsNearInAscendingOrder) {
   for (const Vec3d corner : {Vec3d{}, kFar}) {
     const auto kernels = random_kernels(2000, 20, 0.2f, corner);
     const Lattice lattice = Lattice::near(corner, 0.25);
-    const KernelHash hash(kernels, lattice);
+    const KernelSet set = on_lattice(kernels, lattice);
     float reach = 0;
     for (const Kernel& k : kernels) {
       reach = std::max({reach, k.radius_major, k.radius_minor, k.radius_normal});
     }
+    EXPECT_NEAR(set.reach(), reach / 0.25, 1e-5);
     const Vec3d low = lattice.local(corner + Vec3d(5, 6, 7)), high = low + Vec3d(8, 9, 10);
-    std::vector<std::uint32_t> found;
-    hash.gather(low, high, found);
-    EXPECT_TRUE(std::is_sorted(found.begin(), found.end()));
-    EXPECT_LT(found.size(), kernels.size() / 2);
-    const std::set<std::uint32_t> set(found.begin(), found.end());
-    EXPECT_EQ(set.size(), found.size());
+    std::vector<std::uint32_t> ranks;
+    set.gather(low, high, ranks);
+    EXPECT_TRUE(std::is_sorted(ranks.begin(), ranks.end()));
+    EXPECT_LT(ranks.size(), kernels.size() / 2);
+    std::set<std::uint32_t> found;
+    for (const std::uint32_t rank : ranks) found.insert(set.hash().order()[rank]);
+    EXPECT_EQ(found.size(), ranks.size());
     const double r = reach / 0.25;
     for (std::uint32_t k = 0; k < kernels.size(); ++k) {
       const Vec3d c = lattice.local(kernels[k].centre);
       const bool near = c.x >= low.x - r && c.x <= high.x + r && c.y >= low.y - r &&
                         c.y <= high.y + r && c.z >= low.z - r && c.z <= high.z + r;
       if (near) {
-        EXPECT_TRUE(set.count(k)) << k;
+        EXPECT_TRUE(found.count(k)) << k;
       }
     }
   }
@@ -74,9 +155,9 @@ struct Band {
   std::vector<Block> inside;
 };
 
-Band band_of(const KernelHash& hash, const BandOptions& options) {
+Band band_of(const KernelSet& kernels, const BandOptions& options) {
   Band band;
-  band.inside = find_band(hash, options, [&](const BrickList& list, double) {
+  band.inside = find_band(kernels, options, [&](const BrickList& list, double) {
     for (std::size_t b = 0; b < list.size(); ++b) {
       band.bricks[list.origins[b]] = {list.kernels.begin() + list.first[b],
                                       list.kernels.begin() + list.first[b + 1]};
@@ -98,9 +179,9 @@ Verdict verdict(const Band& band, Coord s) {
 TEST(Band, DecidesOnlyWhatTheDensityBearsOut) {
   const auto kernels = random_kernels(3000, 6, 0.3f);
   const Lattice lattice = Lattice::near({0, 0, 0}, 0.03);
-  const KernelHash hash(kernels, lattice);
+  const KernelSet set = on_lattice(kernels, lattice);
   const double t = 1;
-  const Band band = band_of(hash, {t, t});
+  const Band band = band_of(set, {t, t});
   EXPECT_FALSE(band.inside.empty());
   EXPECT_FALSE(band.bricks.empty());
   std::mt19937 random(5);
@@ -124,9 +205,9 @@ TEST(Band, DecidesOnlyWhatTheDensityBearsOut) {
 TEST(Band, EvaluatesBothSidesOfEveryCrossing) {
   const auto kernels = random_kernels(400, 4, 0.3f);
   const Lattice lattice = Lattice::near({0, 0, 0}, 0.1);
-  const KernelHash hash(kernels, lattice);
+  const KernelSet set = on_lattice(kernels, lattice);
   const double t = 1.5;
-  const Band band = band_of(hash, {t, t});
+  const Band band = band_of(set, {t, t});
   const auto inside = [&](Coord s) {
     return reference::density(kernels, lattice.world(to_vec3d(s)), 2) >= t;
   };
@@ -150,9 +231,9 @@ TEST(Band, EvaluatesBothSidesOfEveryCrossing) {
 
 TEST(Band, BrickListsAreThoseOfTheDenseSearch) {
   const auto kernels = random_kernels(800, 6, 0.3f, kFar);
-  const KernelHash hash(kernels, Lattice::near(kFar, 0.1));
-  const Band band = band_of(hash, {1.5, 1.5});
-  const Band dense = band_of(hash, {});
+  const KernelSet set = on_lattice(kernels, Lattice::near(kFar, 0.1));
+  const Band band = band_of(set, {1.5, 1.5});
+  const Band dense = band_of(set, {});
   EXPECT_GT(dense.bricks.size(), band.bricks.size());
   for (const auto& [origin, list] : band.bricks) {
     ASSERT_TRUE(dense.bricks.count(origin));
@@ -164,21 +245,22 @@ TEST(Band, BrickListsAreThoseOfTheDenseSearch) {
 TEST(Points, EveryPointGetsTheKernelsThatReachIt) {
   const auto kernels = random_kernels(1500, 8, 0.2f);
   const Lattice lattice = Lattice::near({0, 0, 0}, 0.1);
-  const KernelHash hash(kernels, lattice);
+  const KernelSet set = on_lattice(kernels, lattice);
   std::mt19937 random(11);
   std::uniform_real_distribution<double> place(-30, 110);
   std::vector<Vec3d> points;
   for (int i = 0; i < 1500; ++i) points.emplace_back(place(random), place(random), place(random));
 
   std::vector<std::set<std::uint32_t>> near(points.size());
-  find_kernels_near(hash, points, 2, [&](const PointBatch& batch) {
+  find_kernels_near(set, points, 2, [&](const PointBatch& batch) {
     for (std::size_t b = 0; b < batch.bricks.size(); ++b) {
       for (auto i = batch.first_point[b]; i < batch.first_point[b + 1]; ++i) {
         const Vec3d p = to_vec3d(batch.bricks.origins[b]) + Vec3d(batch.offset[i]);
         EXPECT_LT(length(p - points[batch.index[i]]), 1e-5);
         EXPECT_TRUE(near[batch.index[i]].empty()) << "a point in two bricks";
-        near[batch.index[i]].insert(batch.bricks.kernels.begin() + batch.bricks.first[b],
-                                    batch.bricks.kernels.begin() + batch.bricks.first[b + 1]);
+        for (auto k = batch.bricks.first[b]; k < batch.bricks.first[b + 1]; ++k) {
+          near[batch.index[i]].insert(set.hash().order()[batch.bricks.kernels[k]]);
+        }
       }
     }
   });

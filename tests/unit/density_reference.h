@@ -3,10 +3,12 @@
 #pragma once
 
 #include <cmath>
+#include <memory>
 #include <random>
 #include <span>
 #include <vector>
 
+#include "density/spatial_hash.h"
 #include "leafhull/shape.h"
 
 namespace leafhull::reference {
@@ -54,6 +56,11 @@ inline std::vector<Kernel> random_kernels(std::size_t count, double extent, floa
                        radius(), radius(), radius()});
   }
   return kernels;
+}
+
+/// A spatial hash of kernels with radii up to 1.
+inline std::shared_ptr<const SpatialHash> hash_of(std::span<const Kernel> kernels) {
+  return std::make_shared<const SpatialHash>(kernels, Lattice::near(kernels.front().centre, 1));
 }
 
 }  // namespace leafhull::reference

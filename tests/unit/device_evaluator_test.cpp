@@ -43,11 +43,11 @@ TEST_P(EvaluatorTest, SamplesAgreeWithFloat64) {
   for (const Vec3d corner : {Vec3d{}, Vec3d{1e4, -2e4, 3e3}}) {
     const auto kernels = random_kernels(600, 3, 0.15f, corner);
     const Lattice lattice = Lattice::near(corner, 0.1);
-    const KernelHash hash(kernels, lattice);
-    Evaluator evaluator(chosen(), kernels, lattice, falloff());
+    const KernelSet set(kernels, reference::hash_of(kernels), lattice);
+    Evaluator evaluator(chosen(), set, falloff());
     double worst = 0;
     std::uint64_t pairs = 0, compared = 0;
-    find_band(hash, {.falloff = falloff()}, [&](const BrickList& bricks, double) {
+    find_band(set, {.falloff = falloff()}, [&](const BrickList& bricks, double) {
       std::vector<float> samples(bricks.size() * kBrickSamples);
       pairs += evaluator.sample(bricks, samples);
       for (std::size_t b = 0; b < bricks.size(); b += 5) {
@@ -68,12 +68,12 @@ TEST_P(EvaluatorTest, SamplesAgreeWithFloat64) {
 TEST_P(EvaluatorTest, PointsAgreeWithFloat64) {
   const auto kernels = random_kernels(600, 3, 0.15f);
   const Lattice lattice = Lattice::near({0, 0, 0}, 0.1);
-  const KernelHash hash(kernels, lattice);
-  Evaluator evaluator(chosen(), kernels, lattice, falloff());
+  const KernelSet set(kernels, reference::hash_of(kernels), lattice);
+  Evaluator evaluator(chosen(), set, falloff());
   std::vector<Vec3d> points;
   for (const Kernel& k : kernels) points.push_back(lattice.local(k.centre));
   std::size_t seen = 0;
-  find_kernels_near(hash, points, falloff(), [&](const PointBatch& batch) {
+  find_kernels_near(set, points, falloff(), [&](const PointBatch& batch) {
     const std::vector<float> density = evaluator.density(batch);
     for (std::size_t i = 0; i < density.size(); ++i, ++seen) {
       const double n = reference::density(kernels, kernels[batch.index[i]].centre, falloff());
@@ -87,10 +87,11 @@ TEST_P(EvaluatorTest, OnePointOfOneKernelByHand) {
   // xi = (0.5 / 1)^2 = 0.25 at (0.5, 0, 0) of a unit sphere: D = 0.75^k.
   const std::vector<Kernel> kernels{sphere({0, 0, 0}, 1)};
   const Lattice lattice = Lattice::near({0, 0, 0}, 0.25);
-  Evaluator evaluator(chosen(), kernels, lattice, falloff());
+  const KernelSet set(kernels, reference::hash_of(kernels), lattice);
+  Evaluator evaluator(chosen(), set, falloff());
   const std::vector<Vec3d> points{lattice.local({0.5, 0, 0}), lattice.local({0, 0, 1})};
   std::vector<float> density(2, -1);
-  find_kernels_near(KernelHash(kernels, lattice), points, falloff(), [&](const PointBatch& batch) {
+  find_kernels_near(set, points, falloff(), [&](const PointBatch& batch) {
     const auto values = evaluator.density(batch);
     for (std::size_t i = 0; i < values.size(); ++i) density[batch.index[i]] = values[i];
   });
@@ -103,7 +104,8 @@ TEST_P(EvaluatorTest, SnapsOntoAnEllipsoid) {
   const std::vector<Kernel> kernels{{{0.3, 0.2, 0.1}, {0, 0, 1}, {1, 0, 0}, 2, 1, 0.5f}};
   const double t = 0.4;
   const Lattice lattice = Lattice::near({0, 0, 0}, 0.1);
-  Evaluator evaluator(chosen(), kernels, lattice, falloff());
+  const KernelSet set(kernels, reference::hash_of(kernels), lattice);
+  Evaluator evaluator(chosen(), set, falloff());
   const double shrink = std::sqrt(1 - std::pow(t, 1.0 / falloff()));
   std::mt19937 random(2);
   std::normal_distribution<double> gauss;
@@ -116,7 +118,7 @@ TEST_P(EvaluatorTest, SnapsOntoAnEllipsoid) {
     points.push_back(to_vec3d(cell_of(p)) + Vec3d(0.5, 0.5, 0.5));
   }
   int moved = 0;
-  find_kernels_near(KernelHash(kernels, lattice), points, falloff(), [&](const PointBatch& batch) {
+  find_kernels_near(set, points, falloff(), [&](const PointBatch& batch) {
     const auto snapped = evaluator.snap(batch, t, 12);
     for (std::size_t b = 0; b < batch.bricks.size(); ++b) {
       for (auto i = batch.first_point[b]; i < batch.first_point[b + 1]; ++i, ++moved) {
@@ -138,10 +140,10 @@ TEST_P(EvaluatorTest, SnapsOntoAnEllipsoid) {
 TEST(Device, VariantsAgreeToRounding) {
   const auto kernels = random_kernels(800, 3, 0.1f);
   const Lattice lattice = Lattice::near({0, 0, 0}, 0.1);
-  const KernelHash hash(kernels, lattice);
-  Evaluator vector(device("vector"), kernels, lattice, 2);
-  Evaluator work_item(device("work-item"), kernels, lattice, 2);
-  find_band(hash, {}, [&](const BrickList& bricks, double) {
+  const KernelSet set(kernels, reference::hash_of(kernels), lattice);
+  Evaluator vector(device("vector"), set, 2);
+  Evaluator work_item(device("work-item"), set, 2);
+  find_band(set, {}, [&](const BrickList& bricks, double) {
     std::vector<float> a(bricks.size() * kBrickSamples), b(a.size());
     const auto pairs = vector.sample(bricks, a);
     EXPECT_LT(pairs, work_item.sample(bricks, b)) << "sub-bricks are not culled";
@@ -157,9 +159,10 @@ TEST(Device, ThinKernelsLoseNoSamples) {
   // Radii far below a voxel: the sample at the centre must see its kernel, its neighbours nothing.
   std::vector<Kernel> kernels{{{1.5, 2.5, 3.5}, {0, 0, 1}, {1, 0, 0}, 0.01f, 0.01f, 0.01f}};
   const Lattice lattice = Lattice::near({0, 0, 0}, 0.5);
-  Evaluator evaluator(device("vector"), kernels, lattice, 2);
+  const KernelSet set(kernels, reference::hash_of(kernels), lattice);
+  Evaluator evaluator(device("vector"), set, 2);
   int ones = 0, others = 0;
-  find_band(KernelHash(kernels, lattice), {}, [&](const BrickList& bricks, double) {
+  find_band(set, {}, [&](const BrickList& bricks, double) {
     std::vector<float> samples(bricks.size() * kBrickSamples);
     evaluator.sample(bricks, samples);
     for (const float n : samples) n == 1 ? ++ones : others += n != 0;
