@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pipeline/evaluate.h"
 
+#include <tbb/parallel_for.h>
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
@@ -10,13 +11,21 @@ namespace {
 
 Coord corner(Coord cell, int i) { return cell + Coord{i >> 2 & 1, i >> 1 & 1, i & 1}; }
 
+/// Chunk by chunk: the lanes that fill up a chunk repeat one of its points.
+template <class Visit>
+void for_each_lane(const PointBatch& batch, Visit&& visit) {
+  tbb::parallel_for(std::size_t{0}, batch.chunks.size(), [&](std::size_t chunk) {
+    for (std::size_t i = 0; i < kChunkPoints; ++i) visit(chunk * kChunkPoints + i);
+  });
+}
+
 }  // namespace
 
 std::vector<float> DensityFunction::at(std::span<const Vec3d> points) {
   std::vector<float> density(points.size(), 0.0f);
-  find_kernels_near(kernels_, points, falloff_, [&](const PointBatch& batch) {
+  find_kernels_near(kernels_, points, Within::point, [&](const PointBatch& batch) {
     const std::vector<float> values = evaluator_.density(batch);
-    for (std::size_t i = 0; i < values.size(); ++i) density[batch.index[i]] = values[i];
+    for_each_lane(batch, [&](std::size_t lane) { density[batch.index[lane]] = values[lane]; });
   });
   return density;
 }
@@ -69,19 +78,17 @@ DensityFunction::Sampled DensityFunction::sample_band(double threshold, int marg
 }
 
 std::vector<Vec3f> DensityFunction::snap(std::span<Vec3f> points, double threshold, int steps) {
-  std::vector<Vec3d> positions(points.size());
-  std::transform(points.begin(), points.end(), positions.begin(), [](Vec3f p) { return Vec3d(p); });
   std::vector<Vec3f> normals(points.size());
-  find_kernels_near(kernels_, positions, falloff_, [&](const PointBatch& batch) {
-    const Evaluator::Snapped snapped = evaluator_.snap(batch, threshold, steps);
-    for (std::size_t b = 0; b < batch.bricks.size(); ++b) {
-      const Vec3d origin = to_vec3d(batch.bricks.origins[b]);
-      for (std::uint32_t i = batch.first_point[b]; i < batch.first_point[b + 1]; ++i) {
-        points[batch.index[i]] = Vec3f(origin + Vec3d(snapped.offset[i]));
-        normals[batch.index[i]] = snapped.normal[i];
-      }
-    }
-  });
+  const auto put = [&](PointBatch& batch) {
+    const Evaluator::Normals normal = evaluator_.snap(batch, threshold, steps);
+    for_each_lane(batch, [&](std::size_t lane) {
+      const std::uint32_t point = batch.index[lane];
+      const Vec3d offset(Vec3f(batch.x[lane], batch.y[lane], batch.z[lane]));
+      points[point] = Vec3f(to_vec3d(batch.chunks[lane / kChunkPoints].origin) + offset);
+      normals[point] = {normal.x[lane], normal.y[lane], normal.z[lane]};
+    });
+  };
+  find_kernels_near(kernels_, std::span<const Vec3f>(points), Within::cell, put);
   return normals;
 }
 
