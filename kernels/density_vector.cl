@@ -28,7 +28,7 @@ static void list_run(global const Kernel* kernels, global const uint* list, int 
   const float8 qx = (float8)(1.5f, 1.5f, 1.5f, 1.5f, 5.5f, 5.5f, 5.5f, 5.5f);
   const float8 qy = (float8)(1.5f, 1.5f, 5.5f, 5.5f, 1.5f, 1.5f, 5.5f, 5.5f);
   const float8 qz = (float8)(1.5f, 5.5f, 1.5f, 5.5f, 1.5f, 5.5f, 1.5f, 5.5f);
-  for (int s = 0; s < 8; ++s) run->count[s] = 0;
+  int n[8] = {0, 0, 0, 0, 0, 0, 0, 0};
 
   for (int i = 0; i < count; ++i) {
     global const Kernel* k = kernels + list[i];
@@ -48,12 +48,14 @@ static void list_run(global const Kernel* kernels, global const uint* list, int 
     const float8 xi_min = fma(near_x, near_x, fma(near_y, near_y, near_z * near_z));
     int hit[8];
     vstore8(xi_min < XI_SLACK, 0, hit);
+#pragma unroll
     for (int s = 0; s < 8; ++s) {
-      const int n = run->count[s];
-      run->slot[s][n] = i;
-      run->count[s] = n - hit[s];
+      run->slot[s][n[s]] = i;
+      n[s] -= hit[s];
     }
   }
+#pragma unroll
+  for (int s = 0; s < 8; ++s) run->count[s] = n[s];
 }
 
 static void sum_run(global const Kernel* kernels, global const uint* list, const Run* run, int s,
