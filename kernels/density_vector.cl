@@ -1,35 +1,35 @@
 // SPDX-License-Identifier: Apache-2.0
 // N at the samples of a brick, for CPUs: one work-item per brick, explicit vectors.
 //
-// A brick is eight sub-bricks of 4 x 4 x 4. Kernels are taken in runs of RUN: each is first tested
-// against the eight sub-bricks at once (a float8, the bound xi_min of SPEC 5) and entered in the
-// lists of those it reaches; then every sub-brick sums its list, a float16 holding 4 x 4 samples of
-// y and z. Sums go in the order of the list, so they do not depend on RUN.
+// A brick is eight sub-bricks of 4 x 4 x 4. Kernels are taken in runs of 32: each is first tested
+// against the eight sub-bricks at once (a float8, the bound xi_min of SPEC 5) and marked, a bit per
+// kernel, in those that it reaches; then every sub-brick sums its kernels, a float16 holding 4 x 4
+// samples of y and z. Sums go in the order of the list.
 //
 // Global size: the number of bricks; local size 1.
 #include "density.clh"
 
-#ifndef RUN
-#define RUN 64
-#endif
+#define RUN 32
+#define FIRST_OF_RUN 0x80000000u
 
-// The rounding of a position, as a share of the sub-brick, and of xi.
-#define POSITION_SLACK 1.00001f
+#define SUB_BRICKS 8
+#define SUB_BRICK_SAMPLES 64
+
+// Half the extent of a sub-brick's samples, more by the rounding of a position; and that of xi.
+#define HALF 1.500015f
 #define XI_SLACK 1.0001f
 
 typedef struct {
   float8 from_kernel[RUN][3];  // U . (centre of each sub-brick - centre of the kernel)
-  uint slot[8][RUN];           // in the run, by sub-brick
-  int count[8];
+  uint reached[SUB_BRICKS];    // by which kernels of the run, the highest bit for the first
 } Run;
 
-static void list_run(global const Kernel* kernels, global const uint* list, int count, int4 origin,
+static void test_run(global const Kernel* kernels, global const uint* list, int count, int4 origin,
                      Run* run) {
   const float8 qx = (float8)(1.5f, 1.5f, 1.5f, 1.5f, 5.5f, 5.5f, 5.5f, 5.5f);
   const float8 qy = (float8)(1.5f, 1.5f, 5.5f, 5.5f, 1.5f, 1.5f, 5.5f, 5.5f);
   const float8 qz = (float8)(1.5f, 5.5f, 1.5f, 5.5f, 1.5f, 5.5f, 1.5f, 5.5f);
-  for (int s = 0; s < 8; ++s) run->count[s] = 0;
-
+  uint8 reached = 0;
   for (int i = 0; i < count; ++i) {
     global const Kernel* k = kernels + list[i];
     const float8 dx = qx - ((float)(k->cell[0] - origin.x) + k->offset[0]);
@@ -41,55 +41,50 @@ static void list_run(global const Kernel* kernels, global const uint* list, int 
     run->from_kernel[i][0] = mx;
     run->from_kernel[i][1] = my;
     run->from_kernel[i][2] = mz;
-    const float extent = 1.5f * POSITION_SLACK;
-    const float8 near_x = fmax(fabs(mx) - extent * (k->xx + fabs(k->xy) + fabs(k->xz)), 0.0f);
-    const float8 near_y = fmax(fabs(my) - extent * (k->yy + fabs(k->yz)), 0.0f);
-    const float8 near_z = fmax(fabs(mz) - extent * k->zz, 0.0f);
+    const float8 near_x = fmax(fabs(mx) - HALF * (k->xx + fabs(k->xy) + fabs(k->xz)), 0.0f);
+    const float8 near_y = fmax(fabs(my) - HALF * (k->yy + fabs(k->yz)), 0.0f);
+    const float8 near_z = fmax(fabs(mz) - HALF * k->zz, 0.0f);
     const float8 xi_min = fma(near_x, near_x, fma(near_y, near_y, near_z * near_z));
-    int hit[8];
-    vstore8(xi_min < XI_SLACK, 0, hit);
-    for (int s = 0; s < 8; ++s) {
-      const int n = run->count[s];
-      run->slot[s][n] = i;
-      run->count[s] = n - hit[s];
-    }
+    reached |= as_uint8(xi_min < XI_SLACK) & (FIRST_OF_RUN >> i);
   }
+  vstore8(reached, 0, run->reached);
 }
 
-static void sum_run(global const Kernel* kernels, global const uint* list, const Run* run, int s,
-                    float16* n0, float16* n1, float16* n2, float16* n3) {
+// Adds the kernels that reach a sub-brick to its samples n, x by x.
+static void sum_run(global const Kernel* kernels, global const uint* list, const Run* run,
+                    int sub_brick, float16* n) {
   const float16 y = (float16)(-1.5f, -1.5f, -1.5f, -1.5f, -0.5f, -0.5f, -0.5f, -0.5f,  //
                               0.5f, 0.5f, 0.5f, 0.5f, 1.5f, 1.5f, 1.5f, 1.5f);
   const float16 z = (float16)(-1.5f, -0.5f, 0.5f, 1.5f, -1.5f, -0.5f, 0.5f, 1.5f,  //
                               -1.5f, -0.5f, 0.5f, 1.5f, -1.5f, -0.5f, 0.5f, 1.5f);
-  float16 acc0 = *n0, acc1 = *n1, acc2 = *n2, acc3 = *n3;
-  const int count = run->count[s];
-  for (int i = 0; i < count; ++i) {
-    const uint slot = run->slot[s][i];
-    global const Kernel* k = kernels + list[slot];
-    const float* m = (const float*)run->from_kernel[slot] + s;
-    const float16 pz = fma((float16)(k->zz), z, (float16)(m[16]));
-    const float16 py = fma((float16)(k->yy), y, fma((float16)(k->yz), z, (float16)(m[8])));
+  float16 n0 = n[0], n1 = n[1], n2 = n[2], n3 = n[3];
+  for (uint reached = run->reached[sub_brick]; reached;) {
+    const uint i = clz(reached);
+    reached ^= FIRST_OF_RUN >> i;
+    global const Kernel* k = kernels + list[i];
+    const float* m = (const float*)run->from_kernel[i] + sub_brick;
+    const float16 pz = fma((float16)(k->zz), z, (float16)(m[2 * SUB_BRICKS]));
+    const float16 py = fma((float16)(k->yy), y, fma((float16)(k->yz), z, (float16)(m[SUB_BRICKS])));
     const float16 w_yz = fma(-pz, pz, fma(-py, py, (float16)(1.0f)));
     float16 px = fma((float16)(k->xy), y, fma((float16)(k->xz), z, (float16)(m[0] - 1.5f * k->xx)));
-#define ADD_SLAB(acc)                                            \
+#define ADD_SLAB(n)                                              \
   {                                                              \
     const float16 w = fmax(fma(-px, px, w_yz), (float16)(0.0f)); \
-    acc = ADD_POWER(acc, w);                                     \
+    n = ADD_POWER(n, w);                                         \
   }
-    ADD_SLAB(acc0)
+    ADD_SLAB(n0)
     px += k->xx;
-    ADD_SLAB(acc1)
+    ADD_SLAB(n1)
     px += k->xx;
-    ADD_SLAB(acc2)
+    ADD_SLAB(n2)
     px += k->xx;
-    ADD_SLAB(acc3)
+    ADD_SLAB(n3)
 #undef ADD_SLAB
   }
-  *n0 = acc0;
-  *n1 = acc1;
-  *n2 = acc2;
-  *n3 = acc3;
+  n[0] = n0;
+  n[1] = n1;
+  n[2] = n2;
+  n[3] = n3;
 }
 
 static void store_slab(float16 n, global float* row) {
@@ -107,22 +102,22 @@ kernel void density_bricks(global const Kernel* restrict kernels,
                            global uint* restrict pairs) {
   const size_t brick = get_global_id(0);
   const int4 origin = origins[brick];
-  float16 n[8][4];
-  for (int s = 0; s < 8; ++s) {
+  float16 n[SUB_BRICKS][4];
+  for (int s = 0; s < SUB_BRICKS; ++s) {
     n[s][0] = n[s][1] = n[s][2] = n[s][3] = (float16)(0.0f);
   }
   uint evaluated = 0;
   Run run;
   const uint end = first[brick + 1];
   for (uint i = first[brick]; i < end; i += RUN) {
-    list_run(kernels, list + i, (int)min((uint)RUN, end - i), origin, &run);
-    for (int s = 0; s < 8; ++s) {
-      sum_run(kernels, list + i, &run, s, &n[s][0], &n[s][1], &n[s][2], &n[s][3]);
-      evaluated += (uint)run.count[s] * 64;
+    test_run(kernels, list + i, (int)min((uint)RUN, end - i), origin, &run);
+    for (int s = 0; s < SUB_BRICKS; ++s) {
+      sum_run(kernels, list + i, &run, s, n[s]);
+      evaluated += popcount(run.reached[s]) * SUB_BRICK_SAMPLES;
     }
   }
   global float* out = samples + brick * BRICK_SAMPLES;
-  for (int s = 0; s < 8; ++s) {
+  for (int s = 0; s < SUB_BRICKS; ++s) {
     global float* corner = out + (s >> 2) * 256 + (s >> 1 & 1) * 32 + (s & 1) * 4;
     for (int x = 0; x < 4; ++x) store_slab(n[s][x], corner + x * 64);
   }

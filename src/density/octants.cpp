@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "density/octants.h"
 
+#include <bit>
 #include <cmath>
 
 // A copy of the function for wider vectors, chosen when the program is loaded.
@@ -38,7 +39,9 @@ FOR_EVERY_VECTOR_WIDTH
 void test(std::span<const LatticeKernel> kernels, std::span<const std::uint32_t> ranks,
           const Octants& octants, float half, int falloff, Outcome& outcome) {
   const auto positive = [](Floats a) { return a > 0.0f ? a : Floats{}; };
-  const auto absolute = [](Floats a) { return a < 0.0f ? -a : a; };
+  const auto absolute = [](Floats a) {
+    return std::bit_cast<Floats>(std::bit_cast<Ints>(a) & 0x7fffffff);
+  };
   const auto power = [falloff](Floats w) {
     return falloff == 1 ? w : falloff == 2 ? w * w : w * w * w;
   };
