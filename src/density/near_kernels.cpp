@@ -4,27 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
-// A copy of the function for wider vectors, chosen when the program is loaded.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
-#define FOR_EVERY_VECTOR_WIDTH __attribute__((target_clones("default", "avx2")))
-#else
-#define FOR_EVERY_VECTOR_WIDTH
-#endif
-
-#pragma GCC diagnostic ignored "-Wpsabi"  // no vector crosses a call: the helpers are inlined
+#include "density/simd.h"
 
 namespace leafhull {
 namespace {
 
-// The device sums in floats. What is left out gives way by more than the rounding of a position (a
-// share of the box, and of how far kernels are) and of xi.
-constexpr float kPositionSlack = 1e-5f;
-constexpr float kDistanceSlack = 4e-7f;
-constexpr float kXiSlack = 1e-4f;
-
-constexpr std::size_t kGroup = 8;
-using Floats = float __attribute__((vector_size(4 * kGroup)));
-using Ints = std::int32_t __attribute__((vector_size(4 * kGroup)));
+constexpr std::size_t kGroup = sizeof(Floats) / sizeof(float);
 
 constexpr LocalBox kNowhere{{HUGE_VALF, HUGE_VALF, HUGE_VALF},
                             {-HUGE_VALF, -HUGE_VALF, -HUGE_VALF}};
@@ -51,10 +36,6 @@ struct alignas(32) NearKernels::Boxes {
 
 namespace {
 
-Floats positive(Floats a) { return a > 0.0f ? a : Floats{}; }
-Floats larger(Floats a, Floats b) { return a > b ? a : b; }
-Floats absolute(Floats a) { return (Floats)((Ints)a & 0x7fffffff); }
-
 template <class Group>
 FOR_EVERY_VECTOR_WIDTH std::size_t list_reaching(const Group* groups,
                                                  std::span<const std::uint32_t> near, Vec3f q,
@@ -70,7 +51,7 @@ FOR_EVERY_VECTOR_WIDTH std::size_t list_reaching(const Group* groups,
     const Floats ey = half.y * k.yy + half.z * absolute(k.yz);
     const Floats ez = half.z * k.zz;
     const Floats x = positive(mx - ex), y = positive(my - ey), z = positive(mz - ez);
-    const Ints reaches = x * x + y * y + z * z < 1.0f + kXiSlack;  // -1 where true
+    const Ints reaches = x * x + y * y + z * z < 1.0f + kXiSlack;
     for (std::size_t i = 0; i < kGroup; ++i) {
       list[size] = k.ranks[i];
       size += static_cast<std::size_t>(-reaches[i]);

@@ -31,22 +31,20 @@ std::vector<float> DensityFunction::at(std::span<const Vec3d> points) {
 }
 
 std::vector<float> DensityFunction::interpolated_at(std::span<const Vec3d> points) {
-  std::vector<Coord> samples;
-  for (const Vec3d p : points) {
-    for (int i = 0; i < 8; ++i) samples.push_back(corner(cell_of(p), i));
-  }
+  std::vector<Coord> samples(8 * points.size());
+  tbb::parallel_for(std::size_t{0}, samples.size(), [&](std::size_t i) {
+    samples[i] = corner(cell_of(points[i / 8]), static_cast<int>(i % 8));
+  });
   tbb::parallel_sort(samples);
   samples.erase(std::unique(samples.begin(), samples.end()), samples.end());
-  std::vector<Vec3d> positions;
-  positions.reserve(samples.size());
-  for (const Coord s : samples) positions.push_back(to_vec3d(s));
+  std::vector<Vec3d> positions(samples.size());
+  std::transform(samples.begin(), samples.end(), positions.begin(), to_vec3d);
   const std::vector<float> values = at(positions);
 
-  std::vector<float> density;
-  density.reserve(points.size());
-  for (const Vec3d p : points) {
-    const Coord cell = cell_of(p);
-    const Vec3d f = p - to_vec3d(cell);
+  std::vector<float> density(points.size());
+  tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t point) {
+    const Coord cell = cell_of(points[point]);
+    const Vec3d f = points[point] - to_vec3d(cell);
     double sum = 0;
     for (int i = 0; i < 8; ++i) {
       const Coord c = corner(cell, i);
@@ -54,8 +52,8 @@ std::vector<float> DensityFunction::interpolated_at(std::span<const Vec3d> point
       sum += (i >> 2 & 1 ? f.x : 1 - f.x) * (i >> 1 & 1 ? f.y : 1 - f.y) * (i & 1 ? f.z : 1 - f.z) *
              static_cast<double>(values[static_cast<std::size_t>(found)]);
     }
-    density.push_back(static_cast<float>(sum));
-  }
+    density[point] = static_cast<float>(sum);
+  });
   return density;
 }
 
