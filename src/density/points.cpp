@@ -17,9 +17,9 @@ namespace {
 
 /// Points whose kernels are gathered together, about.
 constexpr std::size_t kClusterPoints = 256;
-/// What a batch should hold: 4 MiB of ranks, and no more chunks than one launch takes.
-constexpr std::size_t kBatchEntries = std::size_t{1} << 20;
-constexpr std::size_t kBatchClusters = (std::size_t{1} << 15) / (kClusterPoints / kChunkPoints + 1);
+/// What a batch should hold: 2 MiB of ranks, and no more chunks than one launch takes.
+constexpr std::size_t kBatchEntries = std::size_t{1} << 19;
+constexpr std::size_t kBatchClusters = (std::size_t{1} << 15) / (kClusterPoints / kChunkPoints);
 
 std::size_t chunks_of(std::size_t points) { return (points + kChunkPoints - 1) / kChunkPoints; }
 
@@ -203,7 +203,10 @@ void find_near(const KernelSet& set, std::span<const Vec3<T>> points, Within wit
   const std::vector<Run> runs = sorted_runs(points);
   const std::vector<Cluster> clusters = in_clusters(runs);
   tbb::enumerable_thread_specific<Search> searches([&] { return Search(set, within); });
-  std::size_t group = 64;
+  // Should every kernel reach every point: at most 64 MiB of ranks, or one cluster.
+  constexpr std::size_t kMostEntries = std::size_t{1} << 24;
+  std::size_t group = std::clamp<std::size_t>(
+      kMostEntries / (chunks_of(kClusterPoints) * set.kernels().size() + 1), 1, 64);
   for (std::size_t begin = 0, end = 0; begin < clusters.size(); begin = end) {
     end = std::min(begin + group, clusters.size());
     PointBatch batch = search(points, std::span(clusters).subspan(begin, end - begin), searches);
