@@ -1,20 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 // N and its gradient at scattered points, and the way of a mesh vertex onto the surface N = T.
 //
-// Points come in chunks of 16 that share a brick and its list of kernels. On a CPU a work-item
-// takes a chunk, its lanes the points (LANES 16); on a GPU a work-item takes one point (LANES 1).
-// Global size: 16 / LANES times the number of chunks; local size 16 / LANES.
+// Points come in chunks of CHUNK_POINTS that share a list of kernels. On a CPU a work-item takes a
+// chunk, its lanes the points (LANES = CHUNK_POINTS); on a GPU a work-item takes one point
+// (LANES = 1). Global size: CHUNK_POINTS / LANES times the number of chunks, or more.
 #include "density.clh"
 
+#define CHUNK_POINTS 8
 #ifndef LANES
-#define LANES 16
+#define LANES CHUNK_POINTS
 #endif
 
-#if LANES == 16
-typedef float16 real;
-typedef int16 truth;
-#define LOAD(p) vload16(get_global_id(0), p)
-#define STORE(v, p) vstore16(v, get_global_id(0), p)
+#if LANES == 8
+typedef float8 real;
+typedef int8 truth;
+#define LOAD(p) vload8(get_global_id(0), p)
+#define STORE(v, p) vstore8(v, get_global_id(0), p)
 #define ANY(c) any(c)
 #else
 typedef float real;
@@ -24,30 +25,44 @@ typedef int truth;
 #define ANY(c) (c)
 #endif
 #define REAL(x) ((real)(x))
-#define CHUNK (get_global_id(0) * LANES / 16)
+#define CHUNK (get_global_id(0) * LANES / CHUNK_POINTS)
 
-// Which kernels a chunk's points see, and from where.
+// Which kernels a chunk's points see, and from where: `PointChunk` of the host.
 typedef struct {
-  int origin[3];    // of the brick; offsets of points are from here, voxels
+  int origin[3];    // points are offsets from there, voxels
   uint first, end;  // in the list
-  uint unused[3];
 } Chunk;
 
 typedef struct {
-  real density, dx, dy, dz;
+  real x, y, z;
+} Real3;
+
+static Real3 scaled(Real3 v, real s) { return (Real3){v.x * s, v.y * s, v.z * s}; }
+static real square(Real3 v) { return fma(v.x, v.x, fma(v.y, v.y, v.z * v.z)); }
+static Real3 along(Real3 from, Real3 way, real t) {
+  return (Real3){fma(t, way.x, from.x), fma(t, way.y, from.y), fma(t, way.z, from.z)};
+}
+static Real3 choose3(Real3 no, Real3 yes, truth c) {
+  return (Real3){select(no.x, yes.x, c), select(no.y, yes.y, c), select(no.z, yes.z, c)};
+}
+
+typedef struct {
+  real density;
+  Real3 gradient;
 } Sample;
 
 static Sample density_at(global const Kernel* kernels, global const uint* list,
-                         global const Chunk* chunk, real x, real y, real z) {
-  Sample s = {REAL(0.0f), REAL(0.0f), REAL(0.0f), REAL(0.0f)};
+                         global const Chunk* chunk, Real3 p) {
+  const int4 origin = {chunk->origin[0], chunk->origin[1], chunk->origin[2], 0};
+  Sample s = {REAL(0.0f), {REAL(0.0f), REAL(0.0f), REAL(0.0f)}};
   for (uint i = chunk->first; i < chunk->end; ++i) {
     global const Kernel* k = kernels + list[i];
-    const real px = x - ((float)(k->cell[0] - chunk->origin[0]) + k->offset[0]);
-    const real py = y - ((float)(k->cell[1] - chunk->origin[1]) + k->offset[1]);
-    const real pz = z - ((float)(k->cell[2] - chunk->origin[2]) + k->offset[2]);
-    const real u = fma(REAL(k->xx), px, fma(REAL(k->xy), py, k->xz * pz));
-    const real v = fma(REAL(k->yy), py, k->yz * pz);
-    const real n = k->zz * pz;
+    // The fourth components are not used.
+    const float4 centre = convert_float4(vload4(0, k->cell) - origin) + vload4(0, k->offset);
+    const real dx = p.x - centre.x, dy = p.y - centre.y, dz = p.z - centre.z;
+    const real u = fma(REAL(k->xx), dx, fma(REAL(k->xy), dy, k->xz * dz));
+    const real v = fma(REAL(k->yy), dy, k->yz * dz);
+    const real n = k->zz * dz;
     const real w = fmax(fma(-u, u, fma(-n, n, fma(-v, v, REAL(1.0f)))), REAL(0.0f));
     s.density = ADD_POWER(s.density, w);
     // grad D = -2 k w^(k-1) U^T (u, v, n); w = 0 leaves nothing.
@@ -58,127 +73,125 @@ static Sample density_at(global const Kernel* kernels, global const uint* list,
 #else
     const real slope = -6.0f * w * w;
 #endif
-    s.dx = fma(slope, k->xx * u, s.dx);
-    s.dy = fma(slope, fma(REAL(k->xy), u, k->yy * v), s.dy);
-    s.dz = fma(slope, fma(REAL(k->xz), u, fma(REAL(k->yz), v, k->zz * n)), s.dz);
+    s.gradient.x = fma(slope, k->xx * u, s.gradient.x);
+    s.gradient.y = fma(slope, fma(REAL(k->xy), u, k->yy * v), s.gradient.y);
+    s.gradient.z = fma(slope, fma(REAL(k->xz), u, fma(REAL(k->yz), v, k->zz * n)), s.gradient.z);
   }
   return s;
 }
 
 kernel void density_points(global const Kernel* restrict kernels,
-                           global const Chunk* restrict chunks, global const uint* restrict list,
-                           global const float* restrict xs, global const float* restrict ys,
-                           global const float* restrict zs, global float* restrict density) {
-  const Sample s = density_at(kernels, list, chunks + CHUNK, LOAD(xs), LOAD(ys), LOAD(zs));
-  STORE(s.density, density);
+                           global const Chunk* restrict chunks, uint count,
+                           global const uint* restrict list, global const float* restrict xs,
+                           global const float* restrict ys, global const float* restrict zs,
+                           global float* restrict density) {
+  if (CHUNK >= count) return;
+  const Real3 p = {LOAD(xs), LOAD(ys), LOAD(zs)};
+  STORE(density_at(kernels, list, chunks + CHUNK, p).density, density);
 }
-
-// Squared steepness of N.
-static real steepness_of(Sample s) { return fma(s.dx, s.dx, fma(s.dy, s.dy, s.dz * s.dz)); }
 
 // How near to the surface counts as on it, voxels: |N - T| against the steepness.
 #define CLOSE_ENOUGH 5e-4f
-#define IS_OFF(miss, s) (fabs(miss) > CLOSE_ENOUGH * sqrt(steepness_of(s)))
+// Halvings of the way to a corner.
+#define HALVINGS 14
 
 typedef struct {
-  real x, y, z;
-  Sample sample;
+  Real3 at;
+  Real3 gradient;
   real miss;  // N - T
 } Vertex;
 
-static Vertex vertex_at(global const Kernel* kernels, global const uint* list,
-                        global const Chunk* chunk, float threshold, real x, real y, real z) {
-  const Sample s = density_at(kernels, list, chunk, x, y, z);
-  const Vertex v = {x, y, z, s, s.density - threshold};
-  return v;
-}
-
 static Vertex choose(Vertex no, Vertex yes, truth c) {
-  const Sample s = {select(no.sample.density, yes.sample.density, c),
-                    select(no.sample.dx, yes.sample.dx, c), select(no.sample.dy, yes.sample.dy, c),
-                    select(no.sample.dz, yes.sample.dz, c)};
-  const Vertex v = {select(no.x, yes.x, c), select(no.y, yes.y, c), select(no.z, yes.z, c), s,
-                    select(no.miss, yes.miss, c)};
-  return v;
+  return (Vertex){choose3(no.at, yes.at, c), choose3(no.gradient, yes.gradient, c),
+                  select(no.miss, yes.miss, c)};
 }
 
-// At most `steps` Newton steps along the gradient, cut at the faces of the cell [low, low + 1]; a
-// step that brings N no closer to T is halved.
-static Vertex newton(global const Kernel* kernels, global const uint* list,
-                     global const Chunk* chunk, float threshold, int steps, Vertex best, real low_x,
-                     real low_y, real low_z) {
-  real share = REAL(1.0f);
-  for (int step = 0; step < steps && ANY(IS_OFF(best.miss, best.sample)); ++step) {
-    const real steepness = steepness_of(best.sample);
-    const real t = -share * best.miss / fmax(steepness, REAL(1e-20f));
-    const real along = t / fmax(fabs(t) * sqrt(steepness), REAL(1.0f));  // a voxel at most
-    const Vertex next = vertex_at(kernels, list, chunk, threshold,
-                                  clamp(fma(along, best.sample.dx, best.x), low_x, low_x + 1.0f),
-                                  clamp(fma(along, best.sample.dy, best.y), low_y, low_y + 1.0f),
-                                  clamp(fma(along, best.sample.dz, best.z), low_z, low_z + 1.0f));
-    const truth closer = fabs(next.miss) < fabs(best.miss);
-    best = choose(best, next, closer);
-    share = select(0.5f * share, REAL(1.0f), closer);
-  }
-  return best;
+static truth is_off(Vertex v) { return fabs(v.miss) > CLOSE_ENOUGH * sqrt(square(v.gradient)); }
+
+// A component of the way along the gradient, or zero where it would leave the cell.
+static real within(real gradient, real miss, real x, real low) {
+  const truth leaves =
+      ((x <= low) & (miss * gradient > 0.0f)) | ((x >= low + 1.0f) & (miss * gradient < 0.0f));
+  return select(gradient, REAL(0.0f), leaves);
 }
 
-// Where Newton's way ends at a face or on a plain: the crossing between the point and the nearest
-// corner of the cell on the other side of the surface, by halving. A cell of the mesh has corners
-// on both.
-static Vertex bisect(global const Kernel* kernels, global const uint* list,
-                     global const Chunk* chunk, float threshold, Vertex start, real low_x,
-                     real low_y, real low_z) {
-  real dx = REAL(0.0f), dy = REAL(0.0f), dz = REAL(0.0f), nearest = REAL(INFINITY);
-  const truth above = start.miss >= 0.0f;
-  for (int corner = 0; corner < 8; ++corner) {
-    const Vertex v = vertex_at(kernels, list, chunk, threshold, low_x + (float)(corner >> 2 & 1),
-                               low_y + (float)(corner >> 1 & 1), low_z + (float)(corner & 1));
-    const real ex = v.x - start.x, ey = v.y - start.y, ez = v.z - start.z;
-    const real distance = fma(ex, ex, fma(ey, ey, ez * ez));
-    const truth better = ((v.miss >= 0.0f) != above) & (distance < nearest);
-    nearest = select(nearest, distance, better);
-    dx = select(dx, ex, better);
-    dy = select(dy, ey, better);
-    dz = select(dz, ez, better);
-  }
-  real low = REAL(0.0f), high = REAL(1.0f);
-  for (int step = 0; step < 14; ++step) {
-    const real t = 0.5f * (low + high);
-    const Vertex v = vertex_at(kernels, list, chunk, threshold, fma(t, dx, start.x),
-                               fma(t, dy, start.y), fma(t, dz, start.z));
-    const truth before = (v.miss >= 0.0f) == above;
-    low = select(low, t, before);
-    high = select(t, high, before);
-  }
-  return vertex_at(kernels, list, chunk, threshold, fma(low, dx, start.x), fma(low, dy, start.y),
-                   fma(low, dz, start.z));
+// A share of Newton's step along the gradient, a voxel at most, that slides along the faces of the
+// cell [low, low + 1].
+static Real3 newton_step(Vertex v, Real3 low, real share) {
+  const Real3 way = {within(v.gradient.x, v.miss, v.at.x, low.x),
+                     within(v.gradient.y, v.miss, v.at.y, low.y),
+                     within(v.gradient.z, v.miss, v.at.z, low.z)};
+  const real steepness = square(way);
+  const real t = -share * v.miss / fmax(steepness, REAL(1e-20f));
+  const Real3 p = along(v.at, way, t / fmax(fabs(t) * sqrt(steepness), REAL(1.0f)));
+  return (Real3){clamp(p.x, low.x, low.x + 1.0f), clamp(p.y, low.y, low.y + 1.0f),
+                 clamp(p.z, low.z, low.z + 1.0f)};
+}
+
+static Real3 corner_of(Real3 low, int i) {
+  return (Real3){low.x + (float)(i >> 2 & 1), low.y + (float)(i >> 1 & 1), low.z + (float)(i & 1)};
 }
 
 // Moves each point onto N = threshold within the cell that it starts in (steps = 0: leaves it where
 // it is) and writes the normal -grad N / |grad N| there, or zero where the gradient vanishes.
+//
+// At most `steps` Newton steps; one that brings N no closer to T is halved. Where that ends on a
+// plain or in a corner: the crossing between the point and the nearest corner of the cell on the
+// other side of the surface, by halving. A lane that has arrived stays, so a point's way does not
+// depend on its chunk. One loop, as compilers take their time for each place that sums.
 kernel void snap_points(global const Kernel* restrict kernels, global const Chunk* restrict chunks,
-                        global const uint* restrict list, float threshold, int steps,
+                        uint count, global const uint* restrict list, float threshold, int steps,
                         global float* restrict xs, global float* restrict ys,
                         global float* restrict zs, global float* restrict nxs,
                         global float* restrict nys, global float* restrict nzs) {
-  global const Chunk* chunk = chunks + CHUNK;
-  const real x = LOAD(xs), y = LOAD(ys), z = LOAD(zs);
-  const real low_x = floor(x), low_y = floor(y), low_z = floor(z);
-  Vertex v = vertex_at(kernels, list, chunk, threshold, x, y, z);
-  if (steps > 0) {
-    v = newton(kernels, list, chunk, threshold, steps, v, low_x, low_y, low_z);
-    const truth off = IS_OFF(v.miss, v.sample);
-    if (ANY(off)) {
-      v = choose(v, bisect(kernels, list, chunk, threshold, v, low_x, low_y, low_z), off);
+  if (CHUNK >= count) return;
+  const int corners = steps + 8, end = steps > 0 ? corners + HALVINGS : 0;
+  Real3 p = {LOAD(xs), LOAD(ys), LOAD(zs)};
+  const Real3 low = {floor(p.x), floor(p.y), floor(p.z)};
+  Vertex best = {p, p, REAL(INFINITY)};
+  truth off = REAL(0.0f) == REAL(0.0f);
+  real share = REAL(1.0f);
+  Real3 way = {REAL(0.0f), REAL(0.0f), REAL(0.0f)};  // to the corner
+  real nearest = REAL(INFINITY), before = REAL(0.0f), behind = REAL(1.0f), t = REAL(0.5f);
+  Vertex start = best;
+  for (int i = 0;; ++i) {
+    const Sample s = density_at(kernels, list, chunks + CHUNK, p);
+    const Vertex v = {p, s.gradient, s.density - threshold};
+    if (i <= steps || i > corners) {
+      const truth closer = off & (fabs(v.miss) < fabs(best.miss));
+      best = choose(best, v, closer);
+      share = select(0.5f * share, REAL(1.0f), closer);
+      if (i > corners) {
+        const truth same = (v.miss >= 0.0f) == (start.miss >= 0.0f);
+        before = select(before, t, same);
+        behind = select(t, behind, same);
+      }
+      off = is_off(best);
+      if (i >= end || !ANY(off)) break;
+    } else {
+      const Real3 there = along(p, start.at, REAL(-1.0f));
+      const real distance = square(there);
+      const truth better = ((v.miss >= 0.0f) != (start.miss >= 0.0f)) & (distance < nearest);
+      nearest = select(nearest, distance, better);
+      way = choose3(way, there, better);
+    }
+    if (i < steps) {
+      p = newton_step(best, low, share);
+    } else if (i < corners) {
+      if (i == steps) start = best;
+      p = corner_of(low, i - steps);
+    } else {
+      t = 0.5f * (before + behind);
+      p = along(start.at, way, t);
     }
   }
-  STORE(v.x, xs);
-  STORE(v.y, ys);
-  STORE(v.z, zs);
-  const real steepness = steepness_of(v.sample);
+  STORE(best.at.x, xs);
+  STORE(best.at.y, ys);
+  STORE(best.at.z, zs);
+  const real steepness = square(best.gradient);
   const real scale = select(-rsqrt(steepness), REAL(0.0f), steepness < REAL(1e-30f));
-  STORE(v.sample.dx * scale, nxs);
-  STORE(v.sample.dy * scale, nys);
-  STORE(v.sample.dz * scale, nzs);
+  const Real3 normal = scaled(best.gradient, scale);
+  STORE(normal.x, nxs);
+  STORE(normal.y, nys);
+  STORE(normal.z, nzs);
 }

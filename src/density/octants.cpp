@@ -1,33 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "density/octants.h"
 
-#include <bit>
 #include <cmath>
 
-// A copy of the function for wider vectors, chosen when the program is loaded.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
-#define FOR_EVERY_VECTOR_WIDTH __attribute__((target_clones("default", "avx2")))
-#else
-#define FOR_EVERY_VECTOR_WIDTH
-#endif
+#include "density/simd.h"
 
 namespace leafhull {
 namespace {
 
-// N is summed in floats, here and on the device. The bounds give way by more than the rounding of a
-// position (a share of the cube, as thin kernels magnify it, and of how far kernels are), of xi,
-// and of a sum of many terms.
-constexpr float kPositionSlack = 1e-5f;
-constexpr float kDistanceSlack = 4e-7f;
-constexpr float kXiSlack = 1e-4f;
-
+/// The rounding of a sum of many terms.
 double rounding(std::size_t terms) { return 1e-5 + 1.2e-7 * static_cast<double>(terms); }
-
-#pragma GCC diagnostic ignored "-Wpsabi"  // no vector crosses a call: the helpers are inlined
-
-/// Eight floats, one per octant.
-using Floats = float __attribute__((vector_size(32)));
-using Ints = std::int32_t __attribute__((vector_size(32)));
 
 struct Outcome {
   std::uint32_t* lists[8];
@@ -38,10 +20,6 @@ struct Outcome {
 FOR_EVERY_VECTOR_WIDTH
 void test(std::span<const LatticeKernel> kernels, std::span<const std::uint32_t> ranks,
           const Octants& octants, float half, int falloff, Outcome& outcome) {
-  const auto positive = [](Floats a) { return a > 0.0f ? a : Floats{}; };
-  const auto absolute = [](Floats a) {
-    return std::bit_cast<Floats>(std::bit_cast<Ints>(a) & 0x7fffffff);
-  };
   const auto power = [falloff](Floats w) {
     return falloff == 1 ? w : falloff == 2 ? w * w : w * w * w;
   };

@@ -1,116 +1,232 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "density/points.h"
 
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
 #include <tbb/parallel_sort.h>
 
-#include <tuple>
+#include <algorithm>
+#include <cmath>
+#include <limits>
 
-#include "density/batches.h"
+#include "density/near_kernels.h"
+#include "leafhull/error.h"
 
 namespace leafhull {
 namespace {
 
-/// Where a point lies: its root block, its brick in the order of a descent, and which point it is.
-struct Place {
-  Coord root;
-  std::uint32_t brick;
-  std::uint32_t index;
-  friend bool operator<(const Place& a, const Place& b) {
-    return std::tie(a.root, a.brick, a.index) < std::tie(b.root, b.brick, b.index);
-  }
+/// Points whose kernels are gathered together, about.
+constexpr std::size_t kClusterPoints = 256;
+/// What a batch should hold: 2 MiB of ranks, and no more chunks than one launch takes.
+constexpr std::size_t kBatchEntries = std::size_t{1} << 19;
+constexpr std::size_t kBatchClusters = (std::size_t{1} << 15) / (kClusterPoints / kChunkPoints);
+
+std::size_t chunks_of(std::size_t points) { return (points + kChunkPoints - 1) / kChunkPoints; }
+
+/// Consecutive points in one frame: points come in an order that keeps neighbours together.
+struct Run {
+  Coord frame;
+  std::uint32_t begin, end;
+  friend auto operator<=>(const Run&, const Run&) = default;
 };
 
-/// The rank of a cell's brick among the 64 of its root: the octants of both levels, outer first.
-std::uint32_t brick_rank(Coord cell) {
-  const auto octant = [&](int bit) {
-    return static_cast<std::uint32_t>((cell.x >> bit & 1) << 2 | (cell.y >> bit & 1) << 1 |
-                                      (cell.z >> bit & 1));
+template <class T>
+std::vector<Run> sorted_runs(std::span<const Vec3<T>> points) {
+  constexpr std::size_t kSlice = 4096;
+  std::vector<std::vector<Run>> slices((points.size() + kSlice - 1) / kSlice);
+  tbb::parallel_for(std::size_t{0}, slices.size(), [&](std::size_t slice) {
+    std::vector<Run>& runs = slices[slice];
+    const std::size_t end = std::min((slice + 1) * kSlice, points.size());
+    for (std::size_t i = slice * kSlice; i < end; ++i) {
+      const Coord frame = block_origin(cell_of(Vec3d(points[i])), kFrameEdge);
+      const auto point = static_cast<std::uint32_t>(i);
+      if (!runs.empty() && runs.back().frame == frame &&
+          point - runs.back().begin < kClusterPoints) {
+        runs.back().end = point + 1;
+      } else {
+        runs.push_back({frame, point, point + 1});
+      }
+    }
+  });
+  std::vector<Run> all;
+  for (const auto& runs : slices) all.insert(all.end(), runs.begin(), runs.end());
+  tbb::parallel_sort(all);
+  return all;
+}
+
+/// Runs in one frame.
+struct Cluster {
+  std::span<const Run> runs;
+  std::size_t points = 0;
+};
+
+std::vector<Cluster> in_clusters(std::span<const Run> runs) {
+  std::vector<Cluster> clusters;
+  for (std::size_t begin = 0, end = 0; begin < runs.size(); begin = end) {
+    std::size_t points = 0;
+    while (end < runs.size() && runs[end].frame == runs[begin].frame) {
+      const std::size_t more = runs[end].end - runs[end].begin;
+      if (end > begin && points + more > kClusterPoints) break;
+      points += more;
+      ++end;
+    }
+    clusters.push_back({runs.subspan(begin, end - begin), points});
+  }
+  return clusters;
+}
+
+/// A point of a cluster.
+struct Member {
+  Vec3f offset;  // from the frame's origin
+  std::uint32_t point;
+};
+
+LocalBox box_of(std::span<const Member> members) {
+  LocalBox box{members.front().offset, members.front().offset};
+  for (const Member& m : members) {
+    const Vec3f p = m.offset;
+    box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y), std::min(box.low.z, p.z)};
+    box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y), std::max(box.high.z, p.z)};
+  }
+  return box;
+}
+
+/// Where points in `box` may be asked about.
+LocalBox reach_of(const LocalBox& box, Within within) {
+  if (within == Within::point) return box;
+  const auto below = [](Vec3f p) {
+    return Vec3f(std::floor(p.x), std::floor(p.y), std::floor(p.z));
   };
-  return octant(4) << 3 | octant(3);
+  return {below(box.low), below(box.high) + Vec3f(1, 1, 1)};
 }
 
-std::vector<Place> sorted_places(std::span<const Vec3d> points) {
-  std::vector<Place> places(points.size());
-  for (std::uint32_t i = 0; i < points.size(); ++i) {
-    const Coord cell = cell_of(points[i]);
-    places[i] = {block_origin(cell, kRootEdge), brick_rank(cell), i};
-  }
-  tbb::parallel_sort(places);
-  return places;
-}
-
-/// The points of one root block, taken brick by brick as a descent reaches them.
-class Queue {
+/// Searches a cluster at a time: halves it, by whole chunks, along the longest side.
+class Search {
  public:
-  explicit Queue(std::span<const Place> places) : rest_(places) {}
+  Search(const KernelSet& set, Within within) : set_(set), within_(within) {}
 
-  bool any_in(const Block& block) const {
-    return !rest_.empty() && rest_.front().brick < rank_end(block);
-  }
-
-  std::span<const Place> take(const Block& block) {
-    std::size_t n = 0;
-    while (n < rest_.size() && rest_[n].brick < rank_end(block)) ++n;
-    const auto taken = rest_.first(n);
-    rest_ = rest_.subspan(n);
-    return taken;
+  /// The cluster's chunks go to `batch` from `chunk` on. Replaces `ranks` by their lists, from
+  /// which chunks count.
+  template <class T>
+  void operator()(std::span<const Vec3<T>> points, const Cluster& cluster, std::size_t chunk,
+                  PointBatch& batch, std::vector<std::uint32_t>& ranks) {
+    origin_ = cluster.runs.front().frame;
+    batch_ = &batch;
+    chunk_ = chunk;
+    ranks_.clear();
+    members_.clear();
+    for (const Run& run : cluster.runs) {
+      for (std::uint32_t i = run.begin; i < run.end; ++i) {
+        members_.push_back({Vec3f(Vec3d(points[i]) - to_vec3d(origin_)), i});
+      }
+    }
+    near_.load(set_, origin_, reach_of(box_of(members_), within_));
+    halve(members_);
+    ranks.assign(ranks_.begin(), ranks_.end());
   }
 
  private:
-  // Bricks of a block are neighbours in rank: 64 ranks in a root, 8 in its octants, 1 in a brick.
-  static std::uint32_t rank_end(const Block& block) {
-    const auto bricks = static_cast<std::uint32_t>(block.edge / kBrickEdge);
-    return brick_rank(block.origin) + bricks * bricks * bricks;
+  void halve(std::span<Member> members) {
+    const LocalBox box = box_of(members);
+    if (members.size() <= kChunkPoints) return add_chunk(members, reach_of(box, within_));
+    const Vec3f side = box.high - box.low;
+    const auto axis = side.x >= side.y && side.x >= side.z ? &Vec3f::x
+                      : side.y >= side.z                   ? &Vec3f::y
+                                                           : &Vec3f::z;
+    const std::size_t half = (chunks_of(members.size()) + 1) / 2 * kChunkPoints;
+    std::nth_element(
+        members.begin(), members.begin() + static_cast<std::ptrdiff_t>(half), members.end(),
+        [axis](const Member& a, const Member& b) { return a.offset.*axis < b.offset.*axis; });
+    halve(members.first(half));
+    halve(members.subspan(half));
   }
 
-  std::span<const Place> rest_;
+  void add_chunk(std::span<const Member> members, const LocalBox& reach) {
+    const auto first = static_cast<std::uint32_t>(ranks_.size());
+    near_.append_reaching(reach, ranks_);
+    batch_->chunks[chunk_] = {origin_, first, static_cast<std::uint32_t>(ranks_.size())};
+    for (std::size_t lane = 0; lane < kChunkPoints; ++lane) {
+      const Member& m = members[std::min(lane, members.size() - 1)];
+      const std::size_t at = chunk_ * kChunkPoints + lane;
+      batch_->index[at] = m.point;
+      batch_->x[at] = m.offset.x, batch_->y[at] = m.offset.y, batch_->z[at] = m.offset.z;
+    }
+    ++chunk_;
+  }
+
+  const KernelSet& set_;
+  Within within_;
+  NearKernels near_;
+  std::vector<Member> members_;
+  std::vector<std::uint32_t> ranks_;
+  Coord origin_;
+  PointBatch* batch_ = nullptr;
+  std::size_t chunk_ = 0;
 };
+
+template <class T>
+PointBatch search(std::span<const Vec3<T>> points, std::span<const Cluster> clusters,
+                  tbb::enumerable_thread_specific<Search>& searches) {
+  std::vector<std::size_t> first_chunk{0};
+  for (const Cluster& c : clusters) first_chunk.push_back(first_chunk.back() + chunks_of(c.points));
+  PointBatch batch;
+  batch.chunks.resize(first_chunk.back());
+  batch.index.resize(first_chunk.back() * kChunkPoints);
+  for (auto* v : {&batch.x, &batch.y, &batch.z}) v->resize(batch.index.size());
+
+  std::vector<std::vector<std::uint32_t>> lists(clusters.size());
+  tbb::parallel_for(std::size_t{0}, clusters.size(), [&](std::size_t i) {
+    searches.local()(points, clusters[i], first_chunk[i], batch, lists[i]);
+  });
+
+  std::vector<std::size_t> first{0};
+  for (const auto& list : lists) first.push_back(first.back() + list.size());
+  if (first.back() > std::numeric_limits<std::uint32_t>::max()) {
+    throw Error(ErrorCode::usage, "too many kernels reach one place",
+                "Lower --radius-max or --leaf-scale.");
+  }
+  batch.kernels.resize(first.back());
+  tbb::parallel_for(std::size_t{0}, clusters.size(), [&](std::size_t i) {
+    std::copy(lists[i].begin(), lists[i].end(),
+              batch.kernels.begin() + static_cast<std::ptrdiff_t>(first[i]));
+    for (std::size_t c = first_chunk[i]; c < first_chunk[i + 1]; ++c) {
+      batch.chunks[c].first += static_cast<std::uint32_t>(first[i]);
+      batch.chunks[c].end += static_cast<std::uint32_t>(first[i]);
+    }
+  });
+  return batch;
+}
+
+template <class T>
+void find_near(const KernelSet& set, std::span<const Vec3<T>> points, Within within,
+               const std::function<void(PointBatch&)>& visit) {
+  const std::vector<Run> runs = sorted_runs(points);
+  const std::vector<Cluster> clusters = in_clusters(runs);
+  tbb::enumerable_thread_specific<Search> searches([&] { return Search(set, within); });
+  // Should every kernel reach every point: at most 64 MiB of ranks, or one cluster.
+  constexpr std::size_t kMostEntries = std::size_t{1} << 24;
+  std::size_t group = std::clamp<std::size_t>(
+      kMostEntries / (chunks_of(kClusterPoints) * set.kernels().size() + 1), 1, 64);
+  for (std::size_t begin = 0, end = 0; begin < clusters.size(); begin = end) {
+    end = std::min(begin + group, clusters.size());
+    PointBatch batch = search(points, std::span(clusters).subspan(begin, end - begin), searches);
+    const std::size_t per_cluster = batch.kernels.size() / (end - begin) + 1;
+    group = std::clamp<std::size_t>(kBatchEntries / per_cluster, 1,
+                                    std::min(4 * group, kBatchClusters));
+    visit(batch);
+  }
+}
 
 }  // namespace
 
-void find_kernels_near(const KernelSet& kernels, std::span<const Vec3d> points, int falloff,
-                       const PointVisitor& visit) {
-  const std::vector<Place> places = sorted_places(points);
-  std::vector<std::span<const Place>> roots;
-  for (std::size_t begin = 0, end = 0; begin < places.size(); begin = end) {
-    while (end < places.size() && places[end].root == places[begin].root) ++end;
-    roots.push_back(std::span(places).subspan(begin, end - begin));
-  }
+void find_kernels_near(const KernelSet& kernels, std::span<const Vec3d> points, Within within,
+                       const std::function<void(PointBatch&)>& visit) {
+  find_near(kernels, points, within, visit);
+}
 
-  const auto search = [&](Descent& descent, std::span<const Place> root, PointBatch& found) {
-    Queue queue(root);
-    const auto enter = [&](const Block& block) { return queue.any_in(block); };
-    const auto collect = [&](const Block& block, std::span<const std::uint32_t> near,
-                             const Descent::Bounds&) {
-      if (!near.empty() && block.edge > kBrickEdge) return true;
-      const auto taken = queue.take(block);
-      if (near.empty()) return false;
-      for (const Place& place : taken) {
-        found.index.push_back(place.index);
-        found.offset.push_back(Vec3f(points[place.index] - to_vec3d(block.origin)));
-      }
-      found.bricks.add(block.origin, near);
-      found.first_point.push_back(static_cast<std::uint32_t>(found.index.size()));
-      return false;
-    };
-    descent.from(root.front().root, enter, collect);
-  };
-  const auto join = [](PointBatch& all, const PointBatch& found) {
-    const std::uint32_t offset = all.first_point.back();
-    all.bricks.append(found.bricks);
-    for (std::size_t b = 1; b < found.first_point.size(); ++b) {
-      all.first_point.push_back(offset + found.first_point[b]);
-    }
-    all.index.insert(all.index.end(), found.index.begin(), found.index.end());
-    all.offset.insert(all.offset.end(), found.offset.begin(), found.offset.end());
-  };
-  const auto flush = [&](const PointBatch& found, double) {
-    if (!found.index.empty()) visit(found);
-  };
-  constexpr int kMargin =
-      1;  // a point may move within its cell, whose upper faces are the next brick's
-  in_batches<PointBatch>(
-      roots, [&] { return Descent(kernels, falloff, kMargin); }, search, join, flush);
+void find_kernels_near(const KernelSet& kernels, std::span<const Vec3f> points, Within within,
+                       const std::function<void(PointBatch&)>& visit) {
+  find_near(kernels, points, within, visit);
 }
 
 }  // namespace leafhull

@@ -6,24 +6,38 @@
 #include <span>
 #include <vector>
 
-#include "density/descent.h"
+#include "density/kernel_set.h"
 
 namespace leafhull {
 
-/// Points grouped by the brick that holds them: brick b holds index[first_point[b]] to
-/// index[first_point[b + 1]], and bricks.kernels of b may reach them.
+inline constexpr std::size_t kChunkPoints = 8;
+/// Positions are counted from the origin of a point's frame, a block of this many voxels, so that N
+/// there depends on the point alone.
+inline constexpr int kFrameEdge = 16;
+
+/// Points that are evaluated together, as the device reads it (`Chunk` of points.cl).
+struct PointChunk {
+  Coord origin;                  ///< of the frame that holds them
+  std::uint32_t first = 0, end;  ///< in PointBatch::kernels, the ranks of those that may reach them
+};
+static_assert(sizeof(PointChunk) == 20);
+
+/// Points in chunks, kChunkPoints to each; a chunk that is not full repeats a point.
 struct PointBatch {
-  BrickList bricks;
-  std::vector<std::uint32_t> first_point{0};
-  std::vector<std::uint32_t> index;  ///< into the points asked about
-  std::vector<Vec3f> offset;         ///< from the brick's origin, voxels
+  std::vector<PointChunk> chunks;
+  std::vector<std::uint32_t> kernels;  ///< ascending in each chunk
+  std::vector<std::uint32_t> index;    ///< into the points asked about
+  std::vector<float> x, y, z;          ///< offsets from the frame's origin, voxels
 };
 
-using PointVisitor = std::function<void(const PointBatch&)>;
+/// Where a point may be asked about: where it is, or anywhere in its cell.
+enum class Within { point, cell };
 
-/// Finds the kernels near each of `points` (voxels from the anchor), in batches of bounded size.
-/// Points that no support reaches are left out: N is zero there.
-void find_kernels_near(const KernelSet& kernels, std::span<const Vec3d> points, int falloff,
-                       const PointVisitor& visit);
+/// Finds the kernels near each of `points` (voxels from the anchor) and hands them over, in batches
+/// of bounded size. The device works only while no search runs.
+void find_kernels_near(const KernelSet& kernels, std::span<const Vec3d> points, Within within,
+                       const std::function<void(PointBatch&)>& visit);
+void find_kernels_near(const KernelSet& kernels, std::span<const Vec3f> points, Within within,
+                       const std::function<void(PointBatch&)>& visit);
 
 }  // namespace leafhull

@@ -15,46 +15,10 @@ extern const std::string_view kernel_source_points;
 
 namespace {
 
-constexpr std::size_t kChunk = 16;       // points, as in points.cl
 constexpr std::size_t kWorkItems = 256;  // per brick, as in density_work_item.cl
+constexpr std::size_t kPointsPerGroup = 64;
 // PoCL compiles a kernel again for grids of 65,536 groups and more.
 constexpr std::size_t kBricksPerLaunch = 1 << 15;
-
-/// `Chunk` of points.cl.
-struct Chunk {
-  std::int32_t origin[3];
-  std::uint32_t first, end;
-  std::uint32_t unused[3];
-};
-static_assert(sizeof(Chunk) == 32);
-
-/// A batch's points in chunks of kChunk, coordinate by coordinate; the last chunk of a brick is
-/// filled up with its last point.
-struct Chunks {
-  std::vector<Chunk> chunks;
-  std::vector<float> x, y, z;
-  std::vector<std::uint32_t> lane_of;  // where each point of the batch went
-};
-
-Chunks in_chunks(const PointBatch& batch) {
-  Chunks c;
-  c.lane_of.resize(batch.index.size());
-  for (std::size_t b = 0; b < batch.bricks.size(); ++b) {
-    const Coord o = batch.bricks.origins[b];
-    const std::uint32_t end = batch.first_point[b + 1];
-    for (std::uint32_t begin = batch.first_point[b]; begin < end; begin += kChunk) {
-      c.chunks.push_back({{o.x, o.y, o.z}, batch.bricks.first[b], batch.bricks.first[b + 1], {}});
-      for (std::uint32_t lane = 0; lane < kChunk; ++lane) {
-        const std::uint32_t point = std::min(begin + lane, end - 1);
-        if (begin + lane < end) c.lane_of[point] = static_cast<std::uint32_t>(c.x.size());
-        c.x.push_back(batch.offset[point].x);
-        c.y.push_back(batch.offset[point].y);
-        c.z.push_back(batch.offset[point].z);
-      }
-    }
-  }
-  return c;
-}
 
 }  // namespace
 
@@ -108,12 +72,16 @@ struct Evaluator::Impl {
     }
   }
 
-  std::string lanes() const { return options + (engine.vector() ? " -DLANES=16" : " -DLANES=1"); }
-  void launch_points(const cl::Kernel& kernel, const Chunks& c) {
-    if (c.chunks.empty()) return;
-    const std::size_t per_chunk = engine.vector() ? 1 : kChunk;
-    engine.queue.enqueueNDRangeKernel(
-        kernel, cl::NullRange, cl::NDRange(c.chunks.size() * per_chunk), cl::NDRange(per_chunk));
+  cl::Kernel point_kernel(const char* name) {
+    return engine.kernel(kernel_source_points, options + (engine.vector() ? "" : " -DLANES=1"),
+                         name);
+  }
+  void launch_points(const cl::Kernel& kernel, std::size_t chunks) {
+    const std::size_t group = engine.vector() ? 1 : kPointsPerGroup;
+    const std::size_t items = engine.vector() ? chunks : chunks * kChunkPoints;
+    engine.queue.enqueueNDRangeKernel(kernel, cl::NullRange,
+                                      cl::NDRange((items + group - 1) / group * group),
+                                      cl::NDRange(group));
   }
 };
 
@@ -167,51 +135,47 @@ std::uint64_t Evaluator::sample(const BrickList& bricks, std::span<float> sample
 
 std::vector<float> Evaluator::density(const PointBatch& batch) {
   Impl& d = *impl_;
-  Chunks c = in_chunks(batch);
-  std::vector<float> lanes(c.x.size());
+  std::vector<float> density(batch.index.size());
   d.run("evaluating the density at points", [&] {
-    cl::Kernel kernel = d.engine.kernel(kernel_source_points, d.lanes(), "density_points");
-    const cl::Buffer in[] = {d.input(c.chunks), d.input(batch.bricks.kernels), d.input(c.x),
-                             d.input(c.y), d.input(c.z)};
-    const cl::Buffer out = d.buffer(std::span(lanes), CL_MEM_WRITE_ONLY);
+    cl::Kernel kernel = d.point_kernel("density_points");
+    const cl::Buffer in[] = {d.input(batch.chunks), d.input(batch.kernels), d.input(batch.x),
+                             d.input(batch.y), d.input(batch.z)};
+    const cl::Buffer out = d.buffer(std::span(density), CL_MEM_WRITE_ONLY);
     kernel.setArg(0, d.kernels);
-    for (cl_uint i = 0; i < 5; ++i) kernel.setArg(1 + i, in[i]);
-    kernel.setArg(6, out);
-    d.launch_points(kernel, c);
-    d.fetch(out, std::span(lanes));
+    kernel.setArg(1, in[0]);
+    kernel.setArg(2, static_cast<cl_uint>(batch.chunks.size()));
+    for (cl_uint i = 1; i < 5; ++i) kernel.setArg(2 + i, in[i]);
+    kernel.setArg(7, out);
+    d.launch_points(kernel, batch.chunks.size());
+    d.fetch(out, std::span(density));
   });
-  std::vector<float> density(c.lane_of.size());
-  for (std::size_t i = 0; i < density.size(); ++i) density[i] = lanes[c.lane_of[i]];
   return density;
 }
 
-Evaluator::Snapped Evaluator::snap(const PointBatch& batch, double threshold, int steps) {
+Evaluator::Normals Evaluator::snap(PointBatch& batch, double threshold, int steps) {
   Impl& d = *impl_;
-  Chunks c = in_chunks(batch);
-  std::vector<float> nx(c.x.size()), ny(c.x.size()), nz(c.x.size());
+  Normals normals;
+  for (auto* v : {&normals.x, &normals.y, &normals.z}) v->resize(batch.index.size());
   d.run("moving vertices onto the surface", [&] {
-    cl::Kernel kernel = d.engine.kernel(kernel_source_points, d.lanes(), "snap_points");
-    const cl::Buffer in[] = {d.input(c.chunks), d.input(batch.bricks.kernels)};
-    std::vector<float>* const host[] = {&c.x, &c.y, &c.z, &nx, &ny, &nz};
+    cl::Kernel kernel = d.point_kernel("snap_points");
+    const cl::Buffer chunks = d.input(batch.chunks), list = d.input(batch.kernels);
     kernel.setArg(0, d.kernels);
-    kernel.setArg(1, in[0]);
-    kernel.setArg(2, in[1]);
-    kernel.setArg(3, static_cast<cl_float>(threshold));
-    kernel.setArg(4, static_cast<cl_int>(steps));
+    kernel.setArg(1, chunks);
+    kernel.setArg(2, static_cast<cl_uint>(batch.chunks.size()));
+    kernel.setArg(3, list);
+    kernel.setArg(4, static_cast<cl_float>(threshold));
+    kernel.setArg(5, static_cast<cl_int>(steps));
+    std::vector<float>* const host[] = {&batch.x,   &batch.y,   &batch.z,
+                                        &normals.x, &normals.y, &normals.z};
     cl::Buffer out[6];
     for (cl_uint i = 0; i < 6; ++i) {
       out[i] = d.buffer(std::span(*host[i]), CL_MEM_READ_WRITE);
-      kernel.setArg(5 + i, out[i]);
+      kernel.setArg(6 + i, out[i]);
     }
-    d.launch_points(kernel, c);
+    d.launch_points(kernel, batch.chunks.size());
     for (cl_uint i = 0; i < 6; ++i) d.fetch(out[i], std::span(*host[i]));
   });
-  Snapped snapped;
-  for (const std::uint32_t lane : c.lane_of) {
-    snapped.offset.emplace_back(c.x[lane], c.y[lane], c.z[lane]);
-    snapped.normal.emplace_back(nx[lane], ny[lane], nz[lane]);
-  }
-  return snapped;
+  return normals;
 }
 
 }  // namespace leafhull

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "density/kernel_set.h"
+#include "density/descent.h"
 #include "density/points.h"
 #include "leafhull/device.h"
 
@@ -29,12 +29,12 @@ class Evaluator {
   /// N at the points of a batch, in the order of batch.index.
   std::vector<float> density(const PointBatch& batch);
 
-  /// A batch's points, moved onto N = threshold, as offsets from their brick's origin, and the
-  /// normals there (zero where the gradient vanishes). No steps: only the normals.
-  struct Snapped {
-    std::vector<Vec3f> offset, normal;
+  /// Moves the points of a batch onto N = threshold and returns the normals there, zero where the
+  /// gradient vanishes. No steps: only the normals.
+  struct Normals {
+    std::vector<float> x, y, z;
   };
-  Snapped snap(const PointBatch& batch, double threshold, int steps);
+  Normals snap(PointBatch& batch, double threshold, int steps);
 
  private:
   struct Impl;

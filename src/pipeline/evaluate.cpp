@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pipeline/evaluate.h"
 
+#include <tbb/parallel_for.h>
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
@@ -11,34 +12,40 @@ namespace {
 
 Coord corner(Coord cell, int i) { return cell + Coord{i >> 2 & 1, i >> 1 & 1, i & 1}; }
 
+/// Chunk by chunk: the lanes that fill up a chunk repeat one of its points.
+template <class Visit>
+void for_each_lane(const PointBatch& batch, Visit&& visit) {
+  tbb::parallel_for(std::size_t{0}, batch.chunks.size(), [&](std::size_t chunk) {
+    for (std::size_t i = 0; i < kChunkPoints; ++i) visit(chunk * kChunkPoints + i);
+  });
+}
+
 }  // namespace
 
 std::vector<float> DensityFunction::at(std::span<const Vec3d> points) {
   std::vector<float> density(points.size(), 0.0f);
-  find_kernels_near(kernels_, points, falloff_, [&](const PointBatch& batch) {
+  find_kernels_near(kernels_, points, Within::point, [&](const PointBatch& batch) {
     const std::vector<float> values = evaluator_.density(batch);
-    for (std::size_t i = 0; i < values.size(); ++i) density[batch.index[i]] = values[i];
+    for_each_lane(batch, [&](std::size_t lane) { density[batch.index[lane]] = values[lane]; });
   });
   return density;
 }
 
 std::vector<float> DensityFunction::interpolated_at(std::span<const Vec3d> points) {
-  std::vector<Coord> samples;
-  for (const Vec3d p : points) {
-    for (int i = 0; i < 8; ++i) samples.push_back(corner(cell_of(p), i));
-  }
+  std::vector<Coord> samples(8 * points.size());
+  tbb::parallel_for(std::size_t{0}, samples.size(), [&](std::size_t i) {
+    samples[i] = corner(cell_of(points[i / 8]), static_cast<int>(i % 8));
+  });
   tbb::parallel_sort(samples);
   samples.erase(std::unique(samples.begin(), samples.end()), samples.end());
-  std::vector<Vec3d> positions;
-  positions.reserve(samples.size());
-  for (const Coord s : samples) positions.push_back(to_vec3d(s));
+  std::vector<Vec3d> positions(samples.size());
+  std::transform(samples.begin(), samples.end(), positions.begin(), to_vec3d);
   const std::vector<float> values = at(positions);
 
-  std::vector<float> density;
-  density.reserve(points.size());
-  for (const Vec3d p : points) {
-    const Coord cell = cell_of(p);
-    const Vec3d f = p - to_vec3d(cell);
+  std::vector<float> density(points.size());
+  tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t point) {
+    const Coord cell = cell_of(points[point]);
+    const Vec3d f = points[point] - to_vec3d(cell);
     double sum = 0;
     for (int i = 0; i < 8; ++i) {
       const Coord c = corner(cell, i);
@@ -46,8 +53,8 @@ std::vector<float> DensityFunction::interpolated_at(std::span<const Vec3d> point
       sum += (i >> 2 & 1 ? f.x : 1 - f.x) * (i >> 1 & 1 ? f.y : 1 - f.y) * (i & 1 ? f.z : 1 - f.z) *
              static_cast<double>(values[static_cast<std::size_t>(found)]);
     }
-    density.push_back(static_cast<float>(sum));
-  }
+    density[point] = static_cast<float>(sum);
+  });
   return density;
 }
 
@@ -69,19 +76,17 @@ DensityFunction::Sampled DensityFunction::sample_band(double threshold, int marg
 }
 
 std::vector<Vec3f> DensityFunction::snap(std::span<Vec3f> points, double threshold, int steps) {
-  std::vector<Vec3d> positions(points.size());
-  std::transform(points.begin(), points.end(), positions.begin(), [](Vec3f p) { return Vec3d(p); });
   std::vector<Vec3f> normals(points.size());
-  find_kernels_near(kernels_, positions, falloff_, [&](const PointBatch& batch) {
-    const Evaluator::Snapped snapped = evaluator_.snap(batch, threshold, steps);
-    for (std::size_t b = 0; b < batch.bricks.size(); ++b) {
-      const Vec3d origin = to_vec3d(batch.bricks.origins[b]);
-      for (std::uint32_t i = batch.first_point[b]; i < batch.first_point[b + 1]; ++i) {
-        points[batch.index[i]] = Vec3f(origin + Vec3d(snapped.offset[i]));
-        normals[batch.index[i]] = snapped.normal[i];
-      }
-    }
-  });
+  const auto put = [&](PointBatch& batch) {
+    const Evaluator::Normals normal = evaluator_.snap(batch, threshold, steps);
+    for_each_lane(batch, [&](std::size_t lane) {
+      const std::uint32_t point = batch.index[lane];
+      const Vec3d offset(Vec3f(batch.x[lane], batch.y[lane], batch.z[lane]));
+      points[point] = Vec3f(to_vec3d(batch.chunks[lane / kChunkPoints].origin) + offset);
+      normals[point] = {normal.x[lane], normal.y[lane], normal.z[lane]};
+    });
+  };
+  find_kernels_near(kernels_, std::span<const Vec3f>(points), Within::cell, put);
   return normals;
 }
 

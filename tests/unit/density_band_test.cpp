@@ -7,7 +7,6 @@
 #include <set>
 
 #include "density/band.h"
-#include "density/points.h"
 #include "unit/density_reference.h"
 
 namespace leafhull {
@@ -240,39 +239,6 @@ TEST(Band, BrickListsAreThoseOfTheDenseSearch) {
     EXPECT_EQ(dense.bricks.at(origin), list);
     EXPECT_TRUE(std::is_sorted(list.begin(), list.end()));
   }
-}
-
-TEST(Points, EveryPointGetsTheKernelsThatReachIt) {
-  const auto kernels = random_kernels(1500, 8, 0.2f);
-  const Lattice lattice = Lattice::near({0, 0, 0}, 0.1);
-  const KernelSet set = on_lattice(kernels, lattice);
-  std::mt19937 random(11);
-  std::uniform_real_distribution<double> place(-30, 110);
-  std::vector<Vec3d> points;
-  for (int i = 0; i < 1500; ++i) points.emplace_back(place(random), place(random), place(random));
-
-  std::vector<std::set<std::uint32_t>> near(points.size());
-  find_kernels_near(set, points, 2, [&](const PointBatch& batch) {
-    for (std::size_t b = 0; b < batch.bricks.size(); ++b) {
-      for (auto i = batch.first_point[b]; i < batch.first_point[b + 1]; ++i) {
-        const Vec3d p = to_vec3d(batch.bricks.origins[b]) + Vec3d(batch.offset[i]);
-        EXPECT_LT(length(p - points[batch.index[i]]), 1e-5);
-        EXPECT_TRUE(near[batch.index[i]].empty()) << "a point in two bricks";
-        for (auto k = batch.bricks.first[b]; k < batch.bricks.first[b + 1]; ++k) {
-          near[batch.index[i]].insert(set.hash().order()[batch.bricks.kernels[k]]);
-        }
-      }
-    }
-  });
-  int reached = 0;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    for (std::uint32_t k = 0; k < kernels.size(); ++k) {
-      if (reference::xi(kernels[k], lattice.world(points[i])) >= 1) continue;
-      ++reached;
-      EXPECT_TRUE(near[i].count(k));
-    }
-  }
-  EXPECT_GT(reached, 500);
 }
 
 }  // namespace

@@ -65,6 +65,36 @@ TEST_P(EvaluatorTest, SamplesAgreeWithFloat64) {
   }
 }
 
+/// N at `points`, voxels from the anchor.
+std::vector<float> density_at(Evaluator& evaluator, const KernelSet& set,
+                              std::span<const Vec3d> points) {
+  std::vector<float> density(points.size(), -1);
+  find_kernels_near(set, points, Within::point, [&](const PointBatch& batch) {
+    const auto values = evaluator.density(batch);
+    for (std::size_t i = 0; i < values.size(); ++i) density[batch.index[i]] = values[i];
+  });
+  return density;
+}
+
+struct Snapped {
+  std::vector<Vec3d> points;
+  std::vector<Vec3f> normals;
+};
+
+Snapped snap(Evaluator& evaluator, const KernelSet& set, std::span<const Vec3d> points,
+             double threshold, int steps) {
+  Snapped snapped{std::vector<Vec3d>(points.size()), std::vector<Vec3f>(points.size())};
+  find_kernels_near(set, points, Within::cell, [&](PointBatch& batch) {
+    const Evaluator::Normals n = evaluator.snap(batch, threshold, steps);
+    for (std::size_t i = 0; i < batch.index.size(); ++i) {
+      const Vec3d offset(Vec3f(batch.x[i], batch.y[i], batch.z[i]));
+      snapped.points[batch.index[i]] = to_vec3d(batch.chunks[i / kChunkPoints].origin) + offset;
+      snapped.normals[batch.index[i]] = {n.x[i], n.y[i], n.z[i]};
+    }
+  });
+  return snapped;
+}
+
 TEST_P(EvaluatorTest, PointsAgreeWithFloat64) {
   const auto kernels = random_kernels(600, 3, 0.15f);
   const Lattice lattice = Lattice::near({0, 0, 0}, 0.1);
@@ -72,15 +102,11 @@ TEST_P(EvaluatorTest, PointsAgreeWithFloat64) {
   Evaluator evaluator(chosen(), set, falloff());
   std::vector<Vec3d> points;
   for (const Kernel& k : kernels) points.push_back(lattice.local(k.centre));
-  std::size_t seen = 0;
-  find_kernels_near(set, points, falloff(), [&](const PointBatch& batch) {
-    const std::vector<float> density = evaluator.density(batch);
-    for (std::size_t i = 0; i < density.size(); ++i, ++seen) {
-      const double n = reference::density(kernels, kernels[batch.index[i]].centre, falloff());
-      EXPECT_NEAR(density[i], n, 1e-5 * (1 + n));
-    }
-  });
-  EXPECT_EQ(seen, points.size());
+  const std::vector<float> density = density_at(evaluator, set, points);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double n = reference::density(kernels, kernels[i].centre, falloff());
+    EXPECT_NEAR(density[i], n, 1e-5 * (1 + n));
+  }
 }
 
 TEST_P(EvaluatorTest, OnePointOfOneKernelByHand) {
@@ -89,14 +115,35 @@ TEST_P(EvaluatorTest, OnePointOfOneKernelByHand) {
   const Lattice lattice = Lattice::near({0, 0, 0}, 0.25);
   const KernelSet set(kernels, reference::hash_of(kernels), lattice);
   Evaluator evaluator(chosen(), set, falloff());
-  const std::vector<Vec3d> points{lattice.local({0.5, 0, 0}), lattice.local({0, 0, 1})};
-  std::vector<float> density(2, -1);
-  find_kernels_near(set, points, falloff(), [&](const PointBatch& batch) {
-    const auto values = evaluator.density(batch);
-    for (std::size_t i = 0; i < values.size(); ++i) density[batch.index[i]] = values[i];
-  });
+  const std::vector<Vec3d> points{lattice.local({0.5, 0, 0}), lattice.local({0, 0, 1}),
+                                  lattice.local({50, 60, 70})};
+  const std::vector<float> density = density_at(evaluator, set, points);
   EXPECT_NEAR(density[0], std::pow(0.75, falloff()), 1e-6);
   EXPECT_NEAR(density[1], 0, 1e-6);
+  EXPECT_EQ(density[2], 0);
+}
+
+TEST_P(EvaluatorTest, APointDoesNotDependOnItsCompany) {
+  const auto kernels = random_kernels(600, 3, 0.05f);
+  const Lattice lattice = Lattice::near({0, 0, 0}, 0.1);
+  const KernelSet set(kernels, reference::hash_of(kernels), lattice);
+  Evaluator evaluator(chosen(), set, falloff());
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> unit(0, 30);
+  std::vector<Vec3d> all, some;
+  for (int i = 0; i < 3000; ++i) {
+    all.push_back(Vec3d(Vec3f(Vec3d(unit(random), unit(random), unit(random)))));
+    if (i % 7 == 0) some.push_back(all.back());
+  }
+  const double t = 1;
+  const auto density = density_at(evaluator, set, all), few = density_at(evaluator, set, some);
+  const Snapped snapped = snap(evaluator, set, all, t, 12),
+                moved = snap(evaluator, set, some, t, 12);
+  for (std::size_t i = 0; i < some.size(); ++i) {
+    EXPECT_EQ(few[i], density[7 * i]);
+    EXPECT_EQ(moved.points[i], snapped.points[7 * i]);
+    EXPECT_EQ(moved.normals[i], snapped.normals[7 * i]);
+  }
 }
 
 TEST_P(EvaluatorTest, SnapsOntoAnEllipsoid) {
@@ -117,24 +164,35 @@ TEST_P(EvaluatorTest, SnapsOntoAnEllipsoid) {
     // The centre of the cell that the surface crosses here.
     points.push_back(to_vec3d(cell_of(p)) + Vec3d(0.5, 0.5, 0.5));
   }
-  int moved = 0;
-  find_kernels_near(set, points, falloff(), [&](const PointBatch& batch) {
-    const auto snapped = evaluator.snap(batch, t, 12);
-    for (std::size_t b = 0; b < batch.bricks.size(); ++b) {
-      for (auto i = batch.first_point[b]; i < batch.first_point[b + 1]; ++i, ++moved) {
-        const Vec3d local = to_vec3d(batch.bricks.origins[b]) + Vec3d(snapped.offset[i]);
-        const Vec3d from = points[batch.index[i]];
-        for (const double step : {local.x - from.x, local.y - from.y, local.z - from.z}) {
-          EXPECT_LE(std::fabs(step), 0.5 + 1e-5) << "left its cell";
-        }
-        const Vec3d p = lattice.world(local) - kernels[0].centre;
-        const Vec3d outward = normalized(Vec3d(p.x / 4, p.y, p.z * 4));
-        EXPECT_NEAR(length(Vec3d(p.x / 2, p.y, p.z * 2)) / shrink, 1, 2e-2);
-        EXPECT_GT(dot(outward, Vec3d(snapped.normal[i])), 0.999);
-      }
+  const Snapped snapped = snap(evaluator, set, points, t, 12);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Vec3d local = snapped.points[i];
+    const Vec3d from = points[i];
+    for (const double step : {local.x - from.x, local.y - from.y, local.z - from.z}) {
+      EXPECT_LE(std::fabs(step), 0.5 + 1e-5) << "left its cell";
     }
-  });
-  EXPECT_EQ(moved, 200);
+    const Vec3d p = lattice.world(local) - kernels[0].centre;
+    const Vec3d outward = normalized(Vec3d(p.x / 4, p.y, p.z * 4));
+    EXPECT_NEAR(length(Vec3d(p.x / 2, p.y, p.z * 2)) / shrink, 1, 2e-2);
+    EXPECT_GT(dot(outward, Vec3d(snapped.normals[i])), 0.999);
+  }
+}
+
+TEST_P(EvaluatorTest, SnapsWhereNewtonHasNoWay) {
+  // From the far corner of the cell, where N and its gradient are zero: only the corners know.
+  const std::vector<Kernel> kernels{sphere({0, 0, 0}, 0.8f)};
+  const double t = 0.3;
+  const Lattice lattice = Lattice::near({0, 0, 0}, 1);
+  const KernelSet set(kernels, reference::hash_of(kernels), lattice);
+  Evaluator evaluator(chosen(), set, falloff());
+  const std::vector<Vec3d> points{{0.9, 0.9, 0.9}, {-0.9, 0.8, -0.9}};
+  const Snapped snapped = snap(evaluator, set, points, t, 12);
+  const double radius = 0.8 * std::sqrt(1 - std::pow(t, 1.0 / falloff()));
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    EXPECT_NEAR(length(snapped.points[i]), radius, 2e-3);
+    EXPECT_GT(dot(normalized(points[i]), Vec3d(snapped.normals[i])), 0.99);
+    EXPECT_EQ(cell_of(snapped.points[i]), cell_of(points[i]));
+  }
 }
 
 TEST(Device, VariantsAgreeToRounding) {

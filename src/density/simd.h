@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// Eight floats at a time, in the vector types of GCC and clang.
+#pragma once
+
+#include <bit>
+#include <cstdint>
+
+/// Before a function: a copy of it for wider vectors, chosen when the program is loaded.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
+#define FOR_EVERY_VECTOR_WIDTH __attribute__((target_clones("default", "avx2")))
+#else
+#define FOR_EVERY_VECTOR_WIDTH
+#endif
+
+// What takes vectors is inlined: no vector crosses a call.
+#pragma GCC diagnostic ignored "-Wpsabi"
+#define ALWAYS_INLINE [[gnu::always_inline]] inline
+
+namespace leafhull {
+
+using Floats = float __attribute__((vector_size(32)));
+/// Of a comparison: -1 where it holds, else 0.
+using Ints = std::int32_t __attribute__((vector_size(32)));
+
+ALWAYS_INLINE Floats positive(Floats a) { return a > 0.0f ? a : Floats{}; }
+ALWAYS_INLINE Floats larger(Floats a, Floats b) { return a > b ? a : b; }
+ALWAYS_INLINE Floats absolute(Floats a) {
+  return std::bit_cast<Floats>(std::bit_cast<Ints>(a) & 0x7fffffff);
+}
+
+// N is summed in floats, here and on the device. Bounds on xi give way by more than the rounding of
+// a position (a share of the box, as thin kernels magnify it, and of how far kernels are) and of
+// xi.
+inline constexpr float kPositionSlack = 1e-5f;
+inline constexpr float kDistanceSlack = 4e-7f;
+inline constexpr float kXiSlack = 1e-4f;
+
+}  // namespace leafhull
