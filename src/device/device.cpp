@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "device/engine.h"
+#include "device/evaluator.h"
 #include "leafhull/error.h"
 
 namespace leafhull {
@@ -161,23 +162,11 @@ std::string listing(const std::vector<Found>& devices) {
   return text;
 }
 
-}  // namespace
-
-std::vector<DeviceInfo> list_devices(const DeviceOptions& options) {
-  bound_pocl_threads(options.threads);
-  std::vector<Found> found = find_devices();
-  choose(found, options);
-  std::vector<DeviceInfo> infos;
-  for (const Found& one : found) infos.push_back(one.info);
-  return infos;
-}
-
-Device::Device(const DeviceOptions& options) : engine_(std::make_unique<Engine>()) {
+std::unique_ptr<Device::Engine> open(const DeviceOptions& options) {
   if (!options.variant.empty() && options.variant != "vector" && options.variant != "work-item") {
     throw Error(ErrorCode::usage, "there is no kernel variant '" + options.variant + "'",
                 "Use vector or work-item.");
   }
-  bound_pocl_threads(options.threads);
   std::vector<Found> devices = find_devices();
   if (devices.empty()) throw Error(ErrorCode::device, "no OpenCL device was found", kInstallPocl);
   const auto chosen = choose(devices, options);
@@ -195,20 +184,39 @@ Device::Device(const DeviceOptions& options) : engine_(std::make_unique<Engine>(
                 "the OpenCL device '" + device.info.name + "' is unusable: " + device.info.reason,
                 "Leave --device out to use another.");
   }
-  engine_->info = device.info;
-  engine_->threads = options.threads;
+  auto engine = std::make_unique<Device::Engine>();
+  engine->info = device.info;
+  engine->threads = options.threads;
   try {
-    engine_->device = device.device;
-    engine_->context = cl::Context(device.device);
-    engine_->queue = cl::CommandQueue(engine_->context, device.device);
+    engine->device = device.device;
+    engine->context = cl::Context(device.device);
+    engine->queue = cl::CommandQueue(engine->context, device.device);
   } catch (const cl::Error& error) {
     throw Error(ErrorCode::device,
                 "the OpenCL device '" + device.info.name + "' could not be opened: " +
                     error.what() + " failed with " + std::to_string(error.err()),
                 "Choose another with --device; `leafhull devices` lists them.");
   }
+  return engine;
 }
 
+}  // namespace
+
+std::vector<DeviceInfo> list_devices(const DeviceOptions& options) {
+  bound_pocl_threads(options.threads);
+  std::vector<Found> found = find_devices();
+  choose(found, options);
+  std::vector<DeviceInfo> infos;
+  for (const Found& one : found) infos.push_back(one.info);
+  return infos;
+}
+
+Device::Device(const DeviceOptions& options) {
+  bound_pocl_threads(options.threads);
+  engine_ = open(options);
+}
+
+Device::Device(std::unique_ptr<Engine> engine) : engine_(std::move(engine)) {}
 Device::~Device() = default;
 Device::Device(Device&&) noexcept = default;
 Device& Device::operator=(Device&&) noexcept = default;
@@ -217,27 +225,14 @@ const DeviceInfo& Device::info() const { return engine_->info; }
 
 int Device::threads() const { return engine_->threads; }
 
-cl::Kernel Device::Engine::kernel(std::string_view source, const std::string& options,
-                                  const char* name) {
-  auto [entry, added] = programs.try_emplace({source, options});
-  cl::Program& program = entry->second;
-  try {
-    if (added) {
-      program = cl::Program(context, std::string(source));
-      program.build(device, ("-cl-std=CL1.2 " + options).c_str());
-    }
-    return cl::Kernel(program, name);
-  } catch (const cl::Error& error) {
-    std::string log;
-    if (program()) program.getBuildInfo(device, CL_PROGRAM_BUILD_LOG, &log);
-    programs.erase(entry);
-    throw Error(ErrorCode::device,
-                "the OpenCL kernel " + std::string(name) + " does not build on '" + info.name +
-                    "' (" + error.what() + ", " + std::to_string(error.err()) + "):\n" +
-                    trimmed(log),
-                "Choose another device with --device; if this is PoCL, see that its cache folder "
-                "(POCL_CACHE_DIR) can be written to.");
-  }
+std::future<Device> open_device(const DeviceOptions& options, int falloff) {
+  bound_pocl_threads(options.threads);  // while no other thread may read the environment
+  const auto when = options.threads == 1 ? std::launch::deferred : std::launch::async;
+  return std::async(when, [options, falloff] {
+    Device device(open(options));
+    prepare(device, falloff);
+    return device;
+  });
 }
 
 }  // namespace leafhull

@@ -4,7 +4,6 @@
 #include <map>
 #include <string>
 #include <string_view>
-#include <utility>
 
 #include "device/opencl.h"
 #include "leafhull/device.h"
@@ -18,7 +17,7 @@ struct Device::Engine {
   cl::Device device;
   cl::Context context;
   cl::CommandQueue queue;
-  std::map<std::pair<std::string_view, std::string>, cl::Program> programs;
+  std::map<int, cl::Program> programs;  ///< by falloff
 
   /// True for the variant with explicit vectors.
   bool vector() const { return info.variant == "vector"; }
@@ -26,9 +25,9 @@ struct Device::Engine {
   /// Whether the device works in the host's memory, so that buffers need no copies.
   bool shares_memory() const { return info.type == "CPU"; }
 
-  /// The kernel `name` of an OpenCL source, built once per set of build options.
+  /// The kernel `name` for a falloff, built at the first call.
   /// @throws Error device: the compiler's log.
-  cl::Kernel kernel(std::string_view source, const std::string& options, const char* name);
+  cl::Kernel kernel(const char* name, int falloff);
 };
 
 }  // namespace leafhull

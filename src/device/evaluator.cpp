@@ -2,16 +2,12 @@
 #include "device/evaluator.h"
 
 #include <algorithm>
-#include <string_view>
+#include <string>
 
 #include "device/engine.h"
 #include "leafhull/error.h"
 
 namespace leafhull {
-
-extern const std::string_view kernel_source_density_vector;
-extern const std::string_view kernel_source_density_work_item;
-extern const std::string_view kernel_source_points;
 
 namespace {
 
@@ -81,7 +77,7 @@ Chunks in_chunks(const PointBatch& batch) {
 
 struct Evaluator::Impl {
   Device::Engine& engine;
-  std::string options;
+  int falloff;
   std::vector<DeviceKernel> host;  // outlives `kernels`, which may use it in place
   cl::Buffer kernels;
 
@@ -130,7 +126,6 @@ struct Evaluator::Impl {
     }
   }
 
-  std::string lanes() const { return options + (engine.vector() ? " -DLANES=16" : " -DLANES=1"); }
   void launch_points(const cl::Kernel& kernel, const Chunks& c) {
     if (c.chunks.empty()) return;
     const std::size_t per_chunk = engine.vector() ? 1 : kChunk;
@@ -141,7 +136,7 @@ struct Evaluator::Impl {
 
 Evaluator::Evaluator(Device& device, std::span<const Kernel> kernels, const Lattice& lattice,
                      int falloff)
-    : impl_(new Impl{device.engine(), "-DFALLOFF=" + std::to_string(falloff), {}, {}}) {
+    : impl_(new Impl{device.engine(), falloff, {}, {}}) {
   impl_->host.reserve(kernels.size());
   for (const Kernel& kernel : kernels) {
     impl_->host.push_back(to_device(to_lattice(kernel, lattice)));
@@ -159,9 +154,7 @@ std::uint64_t Evaluator::sample(const BrickList& bricks, std::span<float> sample
   std::vector<std::uint32_t> pairs(bricks.size());
 
   d.run("evaluating the density", [&] {
-    cl::Kernel kernel = d.engine.kernel(
-        d.engine.vector() ? kernel_source_density_vector : kernel_source_density_work_item,
-        d.options, "density_bricks");
+    cl::Kernel kernel = d.engine.kernel("density_bricks", d.falloff);
     const cl::Buffer list = d.input(bricks.kernels);
     kernel.setArg(0, d.kernels);
     kernel.setArg(3, list);
@@ -196,7 +189,7 @@ std::vector<float> Evaluator::density(const PointBatch& batch) {
   Chunks c = in_chunks(batch);
   std::vector<float> lanes(c.x.size());
   d.run("evaluating the density at points", [&] {
-    cl::Kernel kernel = d.engine.kernel(kernel_source_points, d.lanes(), "density_points");
+    cl::Kernel kernel = d.engine.kernel("density_points", d.falloff);
     const cl::Buffer in[] = {d.input(c.chunks), d.input(batch.bricks.kernels), d.input(c.x),
                              d.input(c.y), d.input(c.z)};
     const cl::Buffer out = d.buffer(std::span(lanes), CL_MEM_WRITE_ONLY);
@@ -216,7 +209,7 @@ Evaluator::Snapped Evaluator::snap(const PointBatch& batch, double threshold, in
   Chunks c = in_chunks(batch);
   std::vector<float> nx(c.x.size()), ny(c.x.size()), nz(c.x.size());
   d.run("moving vertices onto the surface", [&] {
-    cl::Kernel kernel = d.engine.kernel(kernel_source_points, d.lanes(), "snap_points");
+    cl::Kernel kernel = d.engine.kernel("snap_points", d.falloff);
     const cl::Buffer in[] = {d.input(c.chunks), d.input(batch.bricks.kernels)};
     std::vector<float>* const host[] = {&c.x, &c.y, &c.z, &nx, &ny, &nz};
     kernel.setArg(0, d.kernels);
@@ -238,6 +231,19 @@ Evaluator::Snapped Evaluator::snap(const PointBatch& batch, double threshold, in
     snapped.normal.emplace_back(nx[lane], ny[lane], nz[lane]);
   }
   return snapped;
+}
+
+void prepare(Device& device, int falloff) {
+  Evaluator nothing(device, {}, Lattice{}, falloff);
+  PointBatch point;  // in a brick that no kernel reaches
+  point.bricks.add(Coord{}, {});
+  point.first_point = {0, 1};
+  point.index = {0};
+  point.offset = {Vec3f{}};
+  std::vector<float> samples(kBrickSamples);
+  nothing.density(point);
+  nothing.sample(point.bricks, samples);
+  nothing.snap(point, 1, 1);
 }
 
 }  // namespace leafhull
