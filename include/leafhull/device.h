@@ -51,9 +51,6 @@ class Device {
   Engine& engine() { return *engine_; }
 
  private:
-  friend std::future<Device> open_device(const DeviceOptions& options, int falloff);
-  explicit Device(std::unique_ptr<Engine> engine);
-
   std::unique_ptr<Engine> engine_;
 };
 

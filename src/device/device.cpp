@@ -25,11 +25,6 @@ struct Found {
   cl::Device device;
 };
 
-std::string trimmed(std::string text) {
-  while (!text.empty() && (text.back() == '\0' || text.back() == ' ')) text.pop_back();
-  return text;
-}
-
 std::string lower(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
@@ -40,8 +35,10 @@ std::string lower(std::string text) {
 void bound_pocl_threads(int threads) {
   if (threads <= 0) return;
   const std::string count = std::to_string(threads);
-  setenv("POCL_MAX_PTHREAD_COUNT", count.c_str(), 1);  // before PoCL 4
-  setenv("POCL_CPU_MAX_CU_COUNT", count.c_str(), 1);
+  for (const char* name : {"POCL_MAX_PTHREAD_COUNT", "POCL_CPU_MAX_CU_COUNT"}) {  // before, since 4
+    const char* bound = std::getenv(name);
+    if (!bound || bound != count) setenv(name, count.c_str(), 1);
+  }
 }
 
 /// Major and minor version of "OpenCL 1.2 ...".
@@ -162,11 +159,23 @@ std::string listing(const std::vector<Found>& devices) {
   return text;
 }
 
-std::unique_ptr<Device::Engine> open(const DeviceOptions& options) {
+}  // namespace
+
+std::vector<DeviceInfo> list_devices(const DeviceOptions& options) {
+  bound_pocl_threads(options.threads);
+  std::vector<Found> found = find_devices();
+  choose(found, options);
+  std::vector<DeviceInfo> infos;
+  for (const Found& one : found) infos.push_back(one.info);
+  return infos;
+}
+
+Device::Device(const DeviceOptions& options) : engine_(std::make_unique<Engine>()) {
   if (!options.variant.empty() && options.variant != "vector" && options.variant != "work-item") {
     throw Error(ErrorCode::usage, "there is no kernel variant '" + options.variant + "'",
                 "Use vector or work-item.");
   }
+  bound_pocl_threads(options.threads);
   std::vector<Found> devices = find_devices();
   if (devices.empty()) throw Error(ErrorCode::device, "no OpenCL device was found", kInstallPocl);
   const auto chosen = choose(devices, options);
@@ -184,39 +193,20 @@ std::unique_ptr<Device::Engine> open(const DeviceOptions& options) {
                 "the OpenCL device '" + device.info.name + "' is unusable: " + device.info.reason,
                 "Leave --device out to use another.");
   }
-  auto engine = std::make_unique<Device::Engine>();
-  engine->info = device.info;
-  engine->threads = options.threads;
+  engine_->info = device.info;
+  engine_->threads = options.threads;
   try {
-    engine->device = device.device;
-    engine->context = cl::Context(device.device);
-    engine->queue = cl::CommandQueue(engine->context, device.device);
+    engine_->device = device.device;
+    engine_->context = cl::Context(device.device);
+    engine_->queue = cl::CommandQueue(engine_->context, device.device);
   } catch (const cl::Error& error) {
     throw Error(ErrorCode::device,
                 "the OpenCL device '" + device.info.name + "' could not be opened: " +
                     error.what() + " failed with " + std::to_string(error.err()),
                 "Choose another with --device; `leafhull devices` lists them.");
   }
-  return engine;
 }
 
-}  // namespace
-
-std::vector<DeviceInfo> list_devices(const DeviceOptions& options) {
-  bound_pocl_threads(options.threads);
-  std::vector<Found> found = find_devices();
-  choose(found, options);
-  std::vector<DeviceInfo> infos;
-  for (const Found& one : found) infos.push_back(one.info);
-  return infos;
-}
-
-Device::Device(const DeviceOptions& options) {
-  bound_pocl_threads(options.threads);
-  engine_ = open(options);
-}
-
-Device::Device(std::unique_ptr<Engine> engine) : engine_(std::move(engine)) {}
 Device::~Device() = default;
 Device::Device(Device&&) noexcept = default;
 Device& Device::operator=(Device&&) noexcept = default;
@@ -226,10 +216,11 @@ const DeviceInfo& Device::info() const { return engine_->info; }
 int Device::threads() const { return engine_->threads; }
 
 std::future<Device> open_device(const DeviceOptions& options, int falloff) {
-  bound_pocl_threads(options.threads);  // while no other thread may read the environment
+  // Here, since no thread may write the environment while another reads it.
+  bound_pocl_threads(options.threads);
   const auto when = options.threads == 1 ? std::launch::deferred : std::launch::async;
   return std::async(when, [options, falloff] {
-    Device device(open(options));
+    Device device(options);
     prepare(device, falloff);
     return device;
   });

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "device/engine.h"
 
+#include <string_view>
+
 #include "leafhull/error.h"
 
 namespace leafhull {
@@ -10,11 +12,6 @@ extern const std::string_view kernel_source_density_work_item;
 extern const std::string_view kernel_source_points;
 
 namespace {
-
-std::string_view trimmed(std::string_view text) {
-  const std::size_t last = text.find_last_not_of(std::string_view(" \n\0", 3));
-  return text.substr(0, last + 1);
-}
 
 /// One program of all kernels: what a build costs PoCL hardly depends on what is in it.
 cl::Program::Sources sources(bool vector) {
@@ -30,26 +27,36 @@ std::string build_options(bool vector, int falloff) {
 
 }  // namespace
 
-cl::Kernel Device::Engine::kernel(const char* name, int falloff) {
-  auto [entry, added] = programs.try_emplace(falloff);
-  cl::Program& program = entry->second;
+std::string trimmed(std::string text) {
+  while (!text.empty() && (text.back() == '\0' || text.back() == ' ')) text.pop_back();
+  return text;
+}
+
+cl::Program Device::Engine::build(const cl::Program::Sources& sources,
+                                  const std::string& options) const {
+  cl::Program program;
   try {
-    if (added) {
-      program = cl::Program(context, sources(vector()));
-      program.build(device, build_options(vector(), falloff).c_str());
-    }
-    return cl::Kernel(program, name);
+    program = cl::Program(context, sources);
+    program.build(device, options.c_str());
+    return program;
   } catch (const cl::Error& error) {
     std::string log;
     if (program()) program.getBuildInfo(device, CL_PROGRAM_BUILD_LOG, &log);
-    programs.erase(entry);
     throw Error(ErrorCode::device,
-                "the OpenCL kernel " + std::string(name) + " does not build on '" + info.name +
-                    "' (" + error.what() + ", " + std::to_string(error.err()) + "):\n" +
-                    std::string(trimmed(log)),
+                "the OpenCL kernels do not build on '" + info.name + "' (" + error.what() + ", " +
+                    std::to_string(error.err()) + "):\n" + trimmed(log),
                 "Choose another device with --device; if this is PoCL, see that its cache folder "
                 "(POCL_CACHE_DIR) can be written to.");
   }
+}
+
+cl::Kernel Device::Engine::kernel(const char* name, int falloff) {
+  auto program = programs.find(falloff);
+  if (program == programs.end()) {
+    program =
+        programs.emplace(falloff, build(sources(vector()), build_options(vector(), falloff))).first;
+  }
+  return cl::Kernel(program->second, name);
 }
 
 }  // namespace leafhull

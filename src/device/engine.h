@@ -3,12 +3,14 @@
 
 #include <map>
 #include <string>
-#include <string_view>
 
 #include "device/opencl.h"
 #include "leafhull/device.h"
 
 namespace leafhull {
+
+/// A driver's answer without the padding of some drivers.
+std::string trimmed(std::string text);
 
 /// An opened device: its context, its queue and the programs built so far.
 struct Device::Engine {
@@ -25,8 +27,11 @@ struct Device::Engine {
   /// Whether the device works in the host's memory, so that buffers need no copies.
   bool shares_memory() const { return info.type == "CPU"; }
 
-  /// The kernel `name` for a falloff, built at the first call.
   /// @throws Error device: the compiler's log.
+  cl::Program build(const cl::Program::Sources& sources, const std::string& options) const;
+
+  /// The kernel `name` for a falloff, from a program that is built at the first call.
+  /// @throws Error device, as build.
   cl::Kernel kernel(const char* name, int falloff);
 };
 
