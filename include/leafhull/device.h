@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <future>
 #include <memory>
 #include <string>
 #include <vector>
@@ -52,5 +53,12 @@ class Device {
  private:
   std::unique_ptr<Engine> engine_;
 };
+
+/// Opens a device and builds its kernels for a falloff on a thread of its own, so that the tree can
+/// be read meanwhile; with `threads` 1 both wait for get(). The build takes PoCL most of a second
+/// the first time, and less than a tenth from its cache.
+/// get() throws what Device's constructor and extract throw of a device; the future waits for its
+/// thread when it is destroyed.
+std::future<Device> open_device(const DeviceOptions& options, int falloff);
 
 }  // namespace leafhull

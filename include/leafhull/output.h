@@ -29,7 +29,8 @@ struct RunDescription {
 ///         output: a folder that does not exist or cannot be written to.
 void check_outputs(const OutputFiles& files, const std::filesystem::path& input);
 
-/// Writes everything under temporary names, then renames: all files or none.
+/// Writes everything under temporary names, then renames: all files or none. A report's seconds
+/// gain `write`, what the other files took.
 /// @throws Error output: which file and why.
 void write_outputs(const OutputFiles& files, const Shape& shape, const RunDescription& run);
 

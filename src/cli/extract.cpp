@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <future>
 #include <iterator>
 #include <span>
 #include <utility>
@@ -163,13 +164,14 @@ void run_extract(const Arguments& arguments) {
   catch_signals();
 
   Stages stages(console);
+  std::future<Device> opening = open_device(arguments.device, options.falloff);
   const LeafSet leaves = [&] {  // the tree is given back before the extraction needs the memory
     const TreeModel tree = stages.run("read", [&] { return read_tree(arguments.tree); });
     warn(tree.warnings);
     return stages.run("leaves", [&] { return find_leaves(tree, options.leaf_options()); });
   }();
   warn(leaves.warnings);
-  Device device = stages.run("device", [&] { return Device(arguments.device); });
+  Device device = stages.run("device", [&] { return opening.get(); });
   Shape shape = extract(leaves, options, device, [&](std::string_view stage, double done) {
     console.progress(stage, done);
   });

@@ -13,6 +13,8 @@ namespace leafhull {
 /// A kernel set on a lattice, in the order of its spatial hash. Kernels are named by rank.
 class KernelSet {
  public:
+  /// No kernels.
+  KernelSet() = default;
   /// `hash` is over the centres of `kernels`.
   KernelSet(std::span<const Kernel> kernels, std::shared_ptr<const SpatialHash> hash,
             const Lattice& lattice);

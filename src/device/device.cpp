@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "device/engine.h"
+#include "device/evaluator.h"
 #include "leafhull/error.h"
 
 namespace leafhull {
@@ -24,11 +25,6 @@ struct Found {
   cl::Device device;
 };
 
-std::string trimmed(std::string text) {
-  while (!text.empty() && (text.back() == '\0' || text.back() == ' ')) text.pop_back();
-  return text;
-}
-
 std::string lower(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
@@ -39,8 +35,10 @@ std::string lower(std::string text) {
 void bound_pocl_threads(int threads) {
   if (threads <= 0) return;
   const std::string count = std::to_string(threads);
-  setenv("POCL_MAX_PTHREAD_COUNT", count.c_str(), 1);  // before PoCL 4
-  setenv("POCL_CPU_MAX_CU_COUNT", count.c_str(), 1);
+  for (const char* name : {"POCL_MAX_PTHREAD_COUNT", "POCL_CPU_MAX_CU_COUNT"}) {  // before, since 4
+    const char* bound = std::getenv(name);
+    if (!bound || bound != count) setenv(name, count.c_str(), 1);
+  }
 }
 
 /// Major and minor version of "OpenCL 1.2 ...".
@@ -217,27 +215,15 @@ const DeviceInfo& Device::info() const { return engine_->info; }
 
 int Device::threads() const { return engine_->threads; }
 
-cl::Kernel Device::Engine::kernel(std::string_view source, const std::string& options,
-                                  const char* name) {
-  auto [entry, added] = programs.try_emplace({source, options});
-  cl::Program& program = entry->second;
-  try {
-    if (added) {
-      program = cl::Program(context, std::string(source));
-      program.build(device, ("-cl-std=CL1.2 " + options).c_str());
-    }
-    return cl::Kernel(program, name);
-  } catch (const cl::Error& error) {
-    std::string log;
-    if (program()) program.getBuildInfo(device, CL_PROGRAM_BUILD_LOG, &log);
-    programs.erase(entry);
-    throw Error(ErrorCode::device,
-                "the OpenCL kernel " + std::string(name) + " does not build on '" + info.name +
-                    "' (" + error.what() + ", " + std::to_string(error.err()) + "):\n" +
-                    trimmed(log),
-                "Choose another device with --device; if this is PoCL, see that its cache folder "
-                "(POCL_CACHE_DIR) can be written to.");
-  }
+std::future<Device> open_device(const DeviceOptions& options, int falloff) {
+  // Here, since no thread may write the environment while another reads it.
+  bound_pocl_threads(options.threads);
+  const auto when = options.threads == 1 ? std::launch::deferred : std::launch::async;
+  return std::async(when, [options, falloff] {
+    Device device(options);
+    prepare(device, falloff);
+    return device;
+  });
 }
 
 }  // namespace leafhull

@@ -3,13 +3,14 @@
 
 #include <map>
 #include <string>
-#include <string_view>
-#include <utility>
 
 #include "device/opencl.h"
 #include "leafhull/device.h"
 
 namespace leafhull {
+
+/// A driver's answer without the padding of some drivers.
+std::string trimmed(std::string text);
 
 /// An opened device: its context, its queue and the programs built so far.
 struct Device::Engine {
@@ -18,7 +19,7 @@ struct Device::Engine {
   cl::Device device;
   cl::Context context;
   cl::CommandQueue queue;
-  std::map<std::pair<std::string_view, std::string>, cl::Program> programs;
+  std::map<int, cl::Program> programs;  ///< by falloff
 
   /// True for the variant with explicit vectors.
   bool vector() const { return info.variant == "vector"; }
@@ -26,9 +27,12 @@ struct Device::Engine {
   /// Whether the device works in the host's memory, so that buffers need no copies.
   bool shares_memory() const { return info.type == "CPU"; }
 
-  /// The kernel `name` of an OpenCL source, built once per set of build options.
   /// @throws Error device: the compiler's log.
-  cl::Kernel kernel(std::string_view source, const std::string& options, const char* name);
+  cl::Program build(const cl::Program::Sources& sources, const std::string& options) const;
+
+  /// The kernel `name` for a falloff, from a program that is built at the first call.
+  /// @throws Error device, as build.
+  cl::Kernel kernel(const char* name, int falloff);
 };
 
 }  // namespace leafhull

@@ -2,16 +2,12 @@
 #include "device/evaluator.h"
 
 #include <algorithm>
-#include <string_view>
+#include <string>
 
 #include "device/engine.h"
 #include "leafhull/error.h"
 
 namespace leafhull {
-
-extern const std::string_view kernel_source_density_vector;
-extern const std::string_view kernel_source_density_work_item;
-extern const std::string_view kernel_source_points;
 
 namespace {
 
@@ -24,7 +20,7 @@ constexpr std::size_t kBricksPerLaunch = 1 << 15;
 
 struct Evaluator::Impl {
   Device::Engine& engine;
-  std::string options;
+  int falloff;
   cl::Buffer kernels;
 
   /// Runs `work`, OpenCL's exceptions told in our words.
@@ -72,10 +68,6 @@ struct Evaluator::Impl {
     }
   }
 
-  cl::Kernel point_kernel(const char* name) {
-    return engine.kernel(kernel_source_points, options + (engine.vector() ? "" : " -DLANES=1"),
-                         name);
-  }
   void launch_points(const cl::Kernel& kernel, std::size_t chunks) {
     const std::size_t group = engine.vector() ? 1 : kPointsPerGroup;
     const std::size_t items = engine.vector() ? chunks : chunks * kChunkPoints;
@@ -86,7 +78,7 @@ struct Evaluator::Impl {
 };
 
 Evaluator::Evaluator(Device& device, const KernelSet& kernels, int falloff)
-    : impl_(new Impl{device.engine(), "-DFALLOFF=" + std::to_string(falloff), {}}) {
+    : impl_(new Impl{device.engine(), falloff, {}}) {
   impl_->run("sending the kernels",
              [&] { impl_->kernels = impl_->buffer(kernels.kernels(), CL_MEM_READ_ONLY); });
 }
@@ -101,9 +93,7 @@ std::uint64_t Evaluator::sample(const BrickList& bricks, std::span<float> sample
   std::vector<std::uint32_t> pairs(bricks.size());
 
   d.run("evaluating the density", [&] {
-    cl::Kernel kernel = d.engine.kernel(
-        d.engine.vector() ? kernel_source_density_vector : kernel_source_density_work_item,
-        d.options, "density_bricks");
+    cl::Kernel kernel = d.engine.kernel("density_bricks", d.falloff);
     const cl::Buffer list = d.input(bricks.kernels);
     kernel.setArg(0, d.kernels);
     kernel.setArg(3, list);
@@ -137,7 +127,7 @@ std::vector<float> Evaluator::density(const PointBatch& batch) {
   Impl& d = *impl_;
   std::vector<float> density(batch.index.size());
   d.run("evaluating the density at points", [&] {
-    cl::Kernel kernel = d.point_kernel("density_points");
+    cl::Kernel kernel = d.engine.kernel("density_points", d.falloff);
     const cl::Buffer in[] = {d.input(batch.chunks), d.input(batch.kernels), d.input(batch.x),
                              d.input(batch.y), d.input(batch.z)};
     const cl::Buffer out = d.buffer(std::span(density), CL_MEM_WRITE_ONLY);
@@ -157,7 +147,7 @@ Evaluator::Normals Evaluator::snap(PointBatch& batch, double threshold, int step
   Normals normals;
   for (auto* v : {&normals.x, &normals.y, &normals.z}) v->resize(batch.index.size());
   d.run("moving vertices onto the surface", [&] {
-    cl::Kernel kernel = d.point_kernel("snap_points");
+    cl::Kernel kernel = d.engine.kernel("snap_points", d.falloff);
     const cl::Buffer chunks = d.input(batch.chunks), list = d.input(batch.kernels);
     kernel.setArg(0, d.kernels);
     kernel.setArg(1, chunks);
@@ -176,6 +166,21 @@ Evaluator::Normals Evaluator::snap(PointBatch& batch, double threshold, int step
     for (cl_uint i = 0; i < 6; ++i) d.fetch(out[i], std::span(*host[i]));
   });
   return normals;
+}
+
+void prepare(Device& device, int falloff) {
+  const KernelSet no_kernels;
+  Evaluator nothing(device, no_kernels, falloff);
+  BrickList brick;
+  brick.add(Coord{}, {});
+  std::vector<float> samples(kBrickSamples);
+  nothing.sample(brick, samples);
+  PointBatch points;
+  points.chunks.resize(1);
+  points.index.resize(kChunkPoints);
+  for (auto* v : {&points.x, &points.y, &points.z}) v->resize(kChunkPoints);
+  nothing.density(points);
+  nothing.snap(points, 1, 1);
 }
 
 }  // namespace leafhull

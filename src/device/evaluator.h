@@ -41,4 +41,8 @@ class Evaluator {
   std::unique_ptr<Impl> impl_;
 };
 
+/// Runs every kernel once on nothing, so that it is built: PoCL compiles at the first launch.
+/// @throws Error device.
+void prepare(Device& device, int falloff);
+
 }  // namespace leafhull

@@ -64,29 +64,34 @@ std::optional<TextureEllipse> AlphaMask::ellipse(const UvBox& box) {
   return known->second;
 }
 
-bool AlphaMask::is_kept(std::int64_t x, std::int64_t y) const {
-  const std::int64_t column = wrapped(x, image_->width, wrap_u_);
-  const std::int64_t row = wrapped(y, image_->height, wrap_v_);
-  return kept_[image_->rgba[4 * (row * image_->width + column) + 3]];
-}
-
 std::optional<TextureEllipse> AlphaMask::moments(const Texels& texels) const {
   const Eigen::Array2d size(image_->width, image_->height);
   const Eigen::Array2d middle(0.5 * static_cast<double>(texels.left + texels.right),
                               0.5 * static_cast<double>(texels.top + texels.bottom));
+  const bool wraps = texels.left < 0 || texels.right >= image_->width;
+  // About the middle all coordinates are multiples of a half: the sums are exact.
   double count = 0;
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
   Eigen::Matrix2d squares = Eigen::Matrix2d::Zero();
   for (std::int64_t y = texels.top; y <= texels.bottom; ++y) {
+    const std::int64_t row = wrapped(y, image_->height, wrap_v_) * image_->width;
+    double in_row = 0, sum_x = 0, sum_xx = 0;
     for (std::int64_t x = texels.left; x <= texels.right; ++x) {
-      if (!is_kept(x, y)) continue;
-      const Eigen::Vector2d p(static_cast<double>(x) - middle[0],
-                              static_cast<double>(y) - middle[1]);
-      ++count;
-      sum += p;
-      squares += p * p.transpose();
+      const std::int64_t column = wraps ? wrapped(x, image_->width, wrap_u_) : x;
+      if (!kept_[image_->rgba[4 * (row + column) + 3]]) continue;
+      const double px = static_cast<double>(x) - middle[0];
+      ++in_row;
+      sum_x += px;
+      sum_xx += px * px;
     }
+    const double py = static_cast<double>(y) - middle[1];
+    count += in_row;
+    sum += Eigen::Vector2d(sum_x, in_row * py);
+    squares(0, 0) += sum_xx;
+    squares(0, 1) += sum_x * py;
+    squares(1, 1) += in_row * py * py;
   }
+  squares(1, 0) = squares(0, 1);
   if (count == 0) return {};
 
   const Eigen::Vector2d mean = sum / count;

@@ -35,7 +35,6 @@ class AlphaMask {
   };
 
   AlphaMask(const Material& material, const Image& image);
-  bool is_kept(std::int64_t x, std::int64_t y) const;
   std::optional<TextureEllipse> moments(const Texels& texels) const;
 
   const Image* image_;

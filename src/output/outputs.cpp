@@ -2,11 +2,13 @@
 #include <unistd.h>
 
 #include <array>
+#include <chrono>
 #include <map>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include "leafhull/error.h"
@@ -88,6 +90,14 @@ std::vector<fs::path> named_files(const OutputFiles& files) {
   return named;
 }
 
+/// The times and that of writing all files but the report; the total stays last.
+std::vector<StageTime> with_write(std::vector<StageTime> times, double seconds) {
+  if (times.empty()) return times;
+  times.back().seconds += seconds;
+  times.insert(times.end() - 1, {"write", seconds});
+  return times;
+}
+
 void write_to_standard_output(const std::string& text) {
   FileStream stream(STDOUT_FILENO, "standard output");
   stream << text << std::flush;
@@ -123,6 +133,8 @@ void check_outputs(const OutputFiles& files, const fs::path& input) {
 }
 
 void write_outputs(const OutputFiles& files, const Shape& shape, const RunDescription& run) {
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point begin = Clock::now();
   Transaction transaction;
   for (const fs::path& file : files.shapes) {
     const ShapeFormat& format = format_of(file);
@@ -137,7 +149,10 @@ void write_outputs(const OutputFiles& files, const Shape& shape, const RunDescri
     transaction.write(*files.field, [&](std::ostream& stream) { write_field(shape, stream); });
   }
   if (files.report) {
-    const std::string report = report_json(shape.report, run);
+    Report written = shape.report;
+    const std::chrono::duration<double> seconds = Clock::now() - begin;
+    written.seconds = with_write(std::move(written.seconds), seconds.count());
+    const std::string report = report_json(written, run);
     if (to_standard_output(files.report)) {
       write_to_standard_output(report);
     } else {

@@ -49,3 +49,15 @@ class Devices(CommandTest):
     def test_no_platform_as_json(self):
         result = self.fail_with(4, ["pocl-opencl-icd"], "devices", "--json", env=self.none)
         self.assertEqual(json.loads(result.stdout), {"devices": []})
+
+    def test_an_error_in_the_input_comes_first(self):
+        missing = self.folder / "missing.glb"
+        command = ("extract", missing, "-o", self.shape)
+        self.fail_with(3, ["missing.glb"], *command)
+        self.fail_with(3, ["missing.glb"], *command, "--device", "no such device")
+        self.fail_with(3, ["missing.glb"], *command, env=self.none)
+        leafless = ("extract", self.tree, "-o", self.shape, "--leaves", "nothing")
+        self.fail_with(3, ["--leaves"], *leafless, env=self.none)
+
+    def test_one_thread_opens_it_too(self):
+        self.succeed("extract", self.tree, "-o", self.shape, "--preset", "draft", "--threads", "1")

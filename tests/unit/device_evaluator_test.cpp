@@ -2,7 +2,9 @@
 // The OpenCL kernels against the float64 reference, both variants, on the default CPU device.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <future>
 #include <random>
 
 #include "density/band.h"
@@ -229,9 +231,31 @@ TEST(Device, ThinKernelsLoseNoSamples) {
   EXPECT_EQ(others, 0);
 }
 
+TEST_P(EvaluatorTest, PreparingBuildsWhatEvaluatingNeeds) {
+  Device prepared =
+      open_device({.choice = "", .threads = 0, .variant = std::get<0>(GetParam())}, falloff())
+          .get();
+  ASSERT_EQ(prepared.engine().programs.size(), 1u);
+  const cl_program built = prepared.engine().programs.at(falloff())();
+
+  const std::vector<Kernel> kernels{sphere({0, 0, 0}, 1)};
+  const Lattice lattice = Lattice::near({0, 0, 0}, 0.25);
+  const KernelSet set(kernels, reference::hash_of(kernels), lattice);
+  Evaluator evaluator(prepared, set, falloff());
+  float highest = 0;
+  find_band(set, {.falloff = falloff()}, [&](const BrickList& bricks, double) {
+    std::vector<float> samples(bricks.size() * kBrickSamples);
+    evaluator.sample(bricks, samples);
+    highest = std::max(highest, *std::max_element(samples.begin(), samples.end()));
+  });
+  EXPECT_EQ(highest, 1);  // at the sphere's centre
+  EXPECT_EQ(prepared.engine().programs.size(), 1u);
+  EXPECT_EQ(prepared.engine().programs.at(falloff())(), built);
+}
+
 TEST(Device, AKernelThatDoesNotBuildShowsItsLog) {
   try {
-    device("vector").engine().kernel("kernel void broken() { no_such_name(); }", "", "broken");
+    device("vector").engine().build({"kernel void broken() { no_such_name(); }"}, "");
     FAIL() << "built";
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ErrorCode::device);
@@ -247,6 +271,32 @@ TEST(Device, ADeviceThatIsNotThereIsNamed) {
     EXPECT_EQ(error.code(), ErrorCode::device);
     EXPECT_NE(std::string(error.what()).find("no such device"), std::string::npos);
   }
+}
+
+TEST(Device, OpeningOnAThreadTellsTheSameErrorsWhenItIsAskedForTheDevice) {
+  for (const int threads : {0, 1}) {
+    std::future<Device> missing =
+        open_device({.choice = "no such device", .threads = threads, .variant = ""}, 2);
+    std::future<Device> unknown =
+        open_device({.choice = "", .threads = threads, .variant = "no such variant"}, 2);
+    try {
+      missing.get();
+      FAIL() << "opened";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::device);
+    }
+    try {
+      unknown.get();
+      FAIL() << "opened";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::usage);
+    }
+  }
+}
+
+TEST(Device, AnOpenedDeviceThatNobodyAsksForIsGivenBack) {
+  { const std::future<Device> unused = open_device({}, 2); }
+  EXPECT_NO_THROW(Device({}));
 }
 
 TEST(Device, TheListMarksTheOneInUse) {

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "device/engine.h"
+
+#include <string_view>
+
+#include "leafhull/error.h"
+
+namespace leafhull {
+
+extern const std::string_view kernel_source_density_vector;
+extern const std::string_view kernel_source_density_work_item;
+extern const std::string_view kernel_source_points;
+
+namespace {
+
+/// One program of all kernels: what a build costs PoCL hardly depends on what is in it.
+cl::Program::Sources sources(bool vector) {
+  const std::string_view density =
+      vector ? kernel_source_density_vector : kernel_source_density_work_item;
+  return {std::string(density), std::string(kernel_source_points)};
+}
+
+std::string build_options(bool vector, int falloff) {
+  return "-cl-std=CL1.2 -DFALLOFF=" + std::to_string(falloff) + (vector ? "" : " -DLANES=1");
+}
+
+}  // namespace
+
+std::string trimmed(std::string text) {
+  while (!text.empty() && (text.back() == '\0' || text.back() == ' ')) text.pop_back();
+  return text;
+}
+
+cl::Program Device::Engine::build(const cl::Program::Sources& sources,
+                                  const std::string& options) const {
+  cl::Program program;
+  try {
+    program = cl::Program(context, sources);
+    program.build(device, options.c_str());
+    return program;
+  } catch (const cl::Error& error) {
+    std::string log;
+    if (program()) program.getBuildInfo(device, CL_PROGRAM_BUILD_LOG, &log);
+    throw Error(ErrorCode::device,
+                "the OpenCL kernels do not build on '" + info.name + "' (" + error.what() + ", " +
+                    std::to_string(error.err()) + "):\n" + trimmed(log),
+                "Choose another device with --device; if this is PoCL, see that its cache folder "
+                "(POCL_CACHE_DIR) can be written to.");
+  }
+}
+
+cl::Kernel Device::Engine::kernel(const char* name, int falloff) {
+  auto program = programs.find(falloff);
+  if (program == programs.end()) {
+    program =
+        programs.emplace(falloff, build(sources(vector()), build_options(vector(), falloff))).first;
+  }
+  return cl::Kernel(program->second, name);
+}
+
+}  // namespace leafhull
