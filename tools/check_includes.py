@@ -37,8 +37,8 @@ LIBRARIES = {
     "tinyobjloader": ("tiny_obj_loader.h",),
 }
 
-# Of POSIX, for files and signals.
-SYSTEM = ("sys/", "fcntl.h", "fnmatch.h", "poll.h", "signal.h", "unistd.h")
+# Of POSIX and the C library, for files, signals and memory.
+SYSTEM = ("sys/", "fcntl.h", "fnmatch.h", "malloc.h", "poll.h", "signal.h", "unistd.h")
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]', re.MULTILINE)
 

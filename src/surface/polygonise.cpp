@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "surface/polygonise.h"
 
+#include <malloc.h>
 #include <openvdb/tools/VolumeToMesh.h>
 #include <tbb/parallel_for.h>
 
@@ -23,9 +24,7 @@ void copy_faces(const PolygonPool& pool, Face* to) {
   }
 }
 
-}  // namespace
-
-Polygons polygonise(const Field& field, double adaptivity) {
+Polygons by_volume_to_mesh(const Field& field, double adaptivity) {
   openvdb::tools::VolumeToMesh mesher(static_cast<double>(field.iso_value()), adaptivity);
   mesher(field.negated());
 
@@ -35,17 +34,28 @@ Polygons polygonise(const Field& field, double adaptivity) {
     const openvdb::Vec3s& p = mesher.pointList()[i];
     polygons.points[i] = {p.x(), p.y(), p.z()};
   });
-  mesher.pointList().reset();
 
+  const std::size_t pools = mesher.polygonPoolListSize();
   std::vector<std::size_t> first{0};  // face of each pool
-  for (std::size_t i = 0; i < mesher.polygonPoolListSize(); ++i) {
+  for (std::size_t i = 0; i < pools; ++i) {
     const PolygonPool& pool = mesher.polygonPoolList()[i];
     first.push_back(first.back() + pool.numQuads() + pool.numTriangles());
   }
   polygons.faces.resize(first.back());
-  tbb::parallel_for(std::size_t{0}, mesher.polygonPoolListSize(), [&](std::size_t i) {
+  tbb::parallel_for(std::size_t{0}, pools, [&](std::size_t i) {
     copy_faces(mesher.polygonPoolList()[i], polygons.faces.data() + first[i]);
   });
+  return polygons;
+}
+
+}  // namespace
+
+Polygons polygonise(const Field& field, double adaptivity) {
+  Polygons polygons = by_volume_to_mesh(field, adaptivity);
+  // The mesher leaves behind a heap of small free blocks, as large as the field: they would count
+  // in the peak of what comes next, and giving them back takes time only where there are many.
+  constexpr std::size_t kManySamples = std::size_t{1} << 22;
+  if (field.sample_count() > kManySamples) malloc_trim(0);
   return polygons;
 }
 

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
+#include <random>
 
 #include "surface/components.h"
 #include "surface/metrics.h"
@@ -99,6 +101,25 @@ TEST(Triangulate, CutsAlongTheShorterDiagonal) {
   EXPECT_EQ(triangles[2], (std::array<std::uint32_t, 3>{0, 1, 2}));
 }
 
+TEST(Field, TheIsoValueTellsInsideExactly) {
+  const float one = 1, below = std::nextafter(one, 0.0f), above = std::nextafter(one, 2.0f);
+  for (const double threshold : {1.0, std::nextafter(1.0, 0.0), std::nextafter(1.0, 2.0)}) {
+    const float iso = Field({}, threshold).iso_value();
+    for (const float n : {0.0f, below, one, above}) {
+      EXPECT_EQ(-n < iso, static_cast<double>(n) >= threshold) << n - 1 << ' ' << threshold - 1;
+    }
+  }
+}
+
+TEST(Field, KnowsItsHighestSample) {
+  Field field({}, 1.0);
+  EXPECT_EQ(field.highest(), 0);
+  add_brick(field, [](Vec3d p) { return p.x + p.y / 10; }, {0, 0, 0});
+  add_brick(field, [](Vec3d) { return 0.5; }, {8, 0, 0});
+  EXPECT_EQ(field.highest(), 7.7f);
+  EXPECT_EQ(field.sample_count(), 2u * kBrickSamples);
+}
+
 TEST(DensityGrid, IsOnTheGlobalLattice) {
   Field field({0.25, {320, -640, 32}}, 1.5);
   add_brick(field, [](Vec3d p) { return p == Vec3d(10, 3, 4) ? 7 : 0.5; }, {8, 0, 0});
@@ -162,6 +183,38 @@ TEST(Metrics, ProvenBlocksCountLikeEvaluatedOnes) {
   EXPECT_EQ(a.off_site_sampled, b.off_site_sampled);
 }
 
+TEST(Metrics, CountTheCellsThatCornersTell) {
+  // Bricks at random places, their samples at random on both sides.
+  std::mt19937 random(7);
+  std::uniform_int_distribution<int> five(0, 4);
+  Field field({}, 1.0);
+  for (int x = -16; x < 16; x += kBrickEdge) {
+    for (int y = -16; y < 16; y += kBrickEdge) {
+      for (int z = -16; z < 16; z += kBrickEdge) {
+        if (five(random) == 0) continue;
+        add_brick(field, [&](Vec3d) { return five(random) == 0 ? 0.5 : 1.5; }, {x, y, z});
+      }
+    }
+  }
+  std::uint64_t inside = 0, on = 0;
+  for (const Field::Brick* brick : field.bricks()) {
+    for (openvdb::Index s = 0; s < kBrickSamples; ++s) {
+      int corners = 0;
+      for (int i = 0; i < 8; ++i) {
+        const openvdb::Coord at =
+            brick->offsetToGlobalCoord(s).offsetBy(i >> 2 & 1, i >> 1 & 1, i & 1);
+        corners += field.negated().tree().getValue(at) < -1;
+      }
+      inside += corners == 8;
+      on += corners > 0 && corners < 8;
+    }
+  }
+  ASSERT_GT(inside, 0u);
+  const Metrics m = measure(field, {});
+  EXPECT_EQ(m.inside_voxels, inside);
+  EXPECT_EQ(m.on_voxels, on);
+}
+
 Mesh tetrahedra(std::vector<float> sizes) {
   Mesh mesh;
   for (const float s : sizes) {
@@ -188,6 +241,25 @@ TEST(Components, SmallOnesAreDroppedByVolume) {
   EXPECT_EQ(mesh.normals[0], Vec3f(0, 0, 3));
   EXPECT_EQ(mesh.normals[4], Vec3f(0, 0, 2));
   EXPECT_TRUE(closed(mesh.triangles));
+}
+
+TEST(Components, AreFoundAcrossManyTriangles) {
+  // A strip whose triangles come in any order, and beside it a thousand small ones.
+  constexpr std::uint32_t kLength = 50'000;
+  Mesh mesh = tetrahedra(std::vector<float>(1000, 0.01f));
+  for (std::uint32_t i = 0; i < kLength; ++i) {
+    mesh.positions.push_back({static_cast<float>(i), i % 2 ? 1.0f : 0.0f, i % 3 ? 1.0f : 0.0f});
+    mesh.normals.push_back({0, 0, 1});
+  }
+  for (std::uint32_t i = 4000; i + 2 < 4000 + kLength; ++i) {
+    mesh.triangles.push_back({i, i + 1, i + 2});
+  }
+  std::shuffle(mesh.triangles.begin(), mesh.triangles.end(), std::mt19937(3));
+  const ComponentCount count = drop_small_components(mesh, 0.001);
+  EXPECT_EQ(count.kept, 1u);
+  EXPECT_EQ(count.dropped, 1000u);
+  EXPECT_EQ(mesh.positions.size(), kLength);
+  EXPECT_EQ(mesh.triangles.size(), kLength - 2);
 }
 
 TEST(Components, AFractionOfZeroKeepsAll) {
