@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "density/near_kernels.h"
 #include "leafhull/error.h"
@@ -27,7 +28,9 @@ std::size_t chunks_of(std::size_t points) { return (points + kChunkPoints - 1) /
 struct Run {
   Coord frame;
   std::uint32_t begin, end;
-  friend auto operator<=>(const Run&, const Run&) = default;
+  friend bool operator<(const Run& a, const Run& b) {
+    return std::pair(a.frame, a.begin) < std::pair(b.frame, b.begin);
+  }
 };
 
 template <class T>
@@ -210,8 +213,7 @@ void find_near(const KernelSet& set, std::span<const Vec3<T>> points, Within wit
   for (std::size_t begin = 0, end = 0; begin < clusters.size(); begin = end) {
     end = std::min(begin + group, clusters.size());
     PointBatch batch = search(points, std::span(clusters).subspan(begin, end - begin), searches);
-    const std::size_t per_cluster = batch.kernels.size() / (end - begin) + 1;
-    group = std::clamp<std::size_t>(kBatchEntries / per_cluster, 1,
+    group = std::clamp<std::size_t>(kBatchEntries * (end - begin) / (batch.kernels.size() + 1), 1,
                                     std::min(4 * group, kBatchClusters));
     visit(batch);
   }
