@@ -36,7 +36,8 @@ class Contender:
                 env={**os.environ, **(environment or {})},
             )
         except FileNotFoundError:
-            raise Unavailable(f"{command[0]} is not installed") from None
+            self._log.close()
+            raise Unavailable(f"{Path(command[0]).name} is not there") from None
         try:
             ready = self._answer()
         except Unavailable:
@@ -51,7 +52,7 @@ class Contender:
             self._forget_peak_memory()
             self._process.stdin.write("run\n")
             self._process.stdin.flush()
-        except (BrokenPipeError, ProcessLookupError):
+        except BrokenPipeError:
             raise Unavailable(self._last_words()) from None
         answer = self._answer()
         return answer | {"peak_memory_bytes": self._peak_memory()}
@@ -71,7 +72,10 @@ class Contender:
 
     def _peak_memory(self) -> int:
         status = Path(f"/proc/{self._process.pid}/status").read_text()
-        return 1024 * int(re.search(r"^VmHWM:\s*(\d+) kB$", status, re.MULTILINE)[1])
+        found = re.search(r"^VmHWM:\s*(\d+) kB$", status, re.MULTILINE)
+        if not found:
+            raise Unavailable(self._last_words())
+        return 1024 * int(found[1])
 
     def _answer(self) -> dict:
         overdue = threading.Event()

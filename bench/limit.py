@@ -5,6 +5,8 @@ from collections.abc import Iterator
 
 from records import Results
 
+PROGRAM = "bench_limit"
+
 
 def percent_of_peak(results: Results) -> dict[str, float | None]:
     return {}

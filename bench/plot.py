@@ -53,7 +53,12 @@ def beside_peers(axes, results: Results) -> None:
     axes.set_xscale("log")
     axes.set_xlabel("whole run, s")
     axes.set_title("128 voxels, painterly")
-    axes.legend(loc="lower left")
+    legend(axes, "lower left")
+
+
+def legend(axes, place: str) -> None:
+    if axes.get_legend_handles_labels()[1]:
+        axes.legend(loc=place)
 
 
 def lines(axes, curves: dict[str, dict[int, float]]) -> None:
@@ -64,7 +69,7 @@ def lines(axes, curves: dict[str, dict[int, float]]) -> None:
     axes.set_xscale("log")
     axes.set_yscale("log")
     axes.set_ylabel("whole run, s")
-    axes.legend(loc="upper left")
+    legend(axes, "upper left")
 
 
 def by_resolution(axes, results: Results) -> None:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The results as a page of Markdown."""
+"""The results as a page of Markdown. A section without rows is left out."""
 
 from collections.abc import Iterable, Iterator
 
@@ -10,42 +10,17 @@ import slopes
 import table2
 from records import Results
 from targets import Target, targets
+from text import milliseconds, number, spread, table
 
 NOT_RUN = "not run"
 STAGES = "stages: "
+SETUP = "setup: "
+REFERENCE = who.OURS[0]
 
 
-def number(value: float | None) -> str:
-    """Three significant digits."""
-    if value is None:
-        return ""
-    if abs(value) >= 100:
-        return f"{value:,.0f}"
-    return f"{value:#.3g}".rstrip(".")
-
-
-def milliseconds(seconds: float | None) -> str:
-    return "" if seconds is None else number(1000 * seconds)
-
-
-def table(header: Iterable[str], rows: Iterable[Iterable[str]]) -> Iterator[str]:
-    cells = list(header)
-    yield "| " + " | ".join(cells) + " |"
-    yield "|---" + "|--:" * (len(cells) - 1) + "|"
-    for row in rows:
-        yield "| " + " | ".join(row) + " |"
-    yield ""
-
-
-def spread(results: Results, case: str, contender: str, part: str) -> str:
-    """Median (least to most) in milliseconds."""
-    values = results.values(case, contender, part)
-    if not values:
-        return ""
-    median = milliseconds(results.median(case, contender, part))
-    if len(values) == 1:
-        return f"{median} (one run)"
-    return f"{median} ({milliseconds(min(values))} to {milliseconds(max(values))})"
+def section(title: str, note: str, header: Iterable[str], rows: Iterable[Iterable[str]]) -> list[str]:
+    lines = table(header, rows)
+    return [title, "", *([note, ""] if note else []), *lines] if lines else []
 
 
 def head(results: Results) -> Iterator[str]:
@@ -53,9 +28,9 @@ def head(results: Results) -> Iterator[str]:
     yield f"# Bench of {about['date']}, {about['machine']['CPU']}"
     yield ""
     yield (
-        "Written by `./dev bench`; every run is in the file of the same name ending in `.csv`. "
+        "Written by `./dev bench`; every run is in the file of this name that ends in `.csv`. "
         "Contenders run side by side (A B C A B C ...) after a warm-up run each; times are medians "
-        "over the rounds, in brackets the least and the most. Slow ones run fewer rounds."
+        "over the rounds, in brackets the least and the most. The slow ones run fewer rounds."
     )
     yield ""
     for tree, other in about["stand_ins"].items():
@@ -71,40 +46,39 @@ def target_row(target: Target) -> tuple[str, ...]:
     return (target.what, bound, values, met)
 
 
-def targets_section(results: Results) -> Iterator[str]:
-    yield "## Targets"
-    yield ""
-    yield from table(("what", "target", "measured", ""), map(target_row, targets(results)))
-
-
-def table2_section(results: Results) -> Iterator[str]:
-    yield "## Table 2 of the paper"
-    yield ""
-    yield (
-        f"Seconds; `{table2.TREE}` has as many leaf vertices as the paper's tree. The published "
-        "algorithm is the contender of that name on this machine; r1.5 has R and T of the paper's "
-        "Figure 17 (c)."
+def targets_section(results: Results) -> list[str]:
+    return section(
+        "## Targets",
+        "",
+        ("what", "target", "measured", ""),
+        map(target_row, targets(results)),
     )
-    yield ""
-    header = ("method, style, voxels", "paper", "published, here", "leafhull", "paper / leafhull",
-              "published / leafhull")  # fmt: skip
-    yield from table(
-        header,
-        (
-            (f"{row.method}, {style}, {row.resolution}",
-             *map(number, (row.paper, row.published, row.ours, row.over_paper,
-                           row.over_published)))
-            for style in plan.STYLES
-            for row in table2.rows(results, style)
-        ),
-    )  # fmt: skip
+
+
+def table2_section(results: Results) -> list[str]:
+    note = (
+        f"Seconds. `{table2.TREE}` has as many leaf vertices as the paper's tree; the published "
+        "algorithm is the contender of that name, on this machine. The paper does not say with "
+        "which radius it measured: r1.5 has R and T of its Figure 17 (c)."
+    )
+    header = ("method, style, voxels", "paper", "published", "leafhull", "paper over leafhull",
+              "published over leafhull")  # fmt: skip
+    rows = [
+        (f"{row.method}, {style}, {row.resolution}", *map(number, row.values))
+        for style in plan.STYLES
+        for row in table2.rows(results, style)
+    ]
+    return section("## Table 2 of the paper", note, header, rows)
 
 
 def whole_cell(results: Results, case: str, contender: str) -> str:
     if not results.values(case, contender, "total"):
-        reasons = {(a["case"], a["contender"]): a["reason"] for a in results.about["absent"]}
-        return "failed" if (case, contender) in reasons else NOT_RUN
-    ratio = results.ratio(case, contender, "leafhull isotropic", "total")
+        absent = any(
+            (entry["case"], entry["contender"]) == (case, contender)
+            for entry in results.about["absent"]
+        )
+        return "failed" if absent else NOT_RUN
+    ratio = results.ratio(case, contender, REFERENCE, "total")
     times = spread(results, case, contender, "total")
     return times if ratio is None else f"{times}, {number(ratio)}x"
 
@@ -112,31 +86,36 @@ def whole_cell(results: Results, case: str, contender: str) -> str:
 def whole_section(results: Results) -> Iterator[str]:
     yield "## Whole runs, by voxels along the longest side"
     yield ""
-    yield "Milliseconds, and how many times leafhull's isotropic run."
+    yield "Milliseconds, and how many times leafhull's isotropic run that is."
     yield ""
     for tree, style in tree_styles(results):
-        cases = {n: f"{tree}-{n}-{style}" for n in plan.RESOLUTIONS}
-        cases = {n: case for n, case in cases.items() if case in results.about["cases"]}
+        cases = [
+            (resolution, case)
+            for resolution in plan.RESOLUTIONS
+            if (case := f"{tree}-{resolution}-{style}") in results.about["cases"]
+        ]
         names = dict.fromkeys(
             name
-            for case in cases.values()
+            for _, case in cases
             for name in results.contenders(case)
-            if name not in who.THREADS and name != who.COLD
+            if name not in (*who.THREADS, who.COLD, limit.PROGRAM)
         )
-        rows = [(name, *(whole_cell(results, c, name) for c in cases.values())) for name in names]
-        yield f"### {tree}, {style}"
-        yield ""
-        yield from table(("contender", *(f"{n}" for n in cases)), rows)
+        header = ("contender", *(str(resolution) for resolution, _ in cases))
+        rows = [(name, *(whole_cell(results, case, name) for _, case in cases)) for name in names]
+        yield from section(f"### {tree}, {style}", "", header, rows)
 
 
 def tree_styles(results: Results) -> list[tuple[str, str]]:
-    """Of the cases by resolution, each tree and style once."""
-    pages = results.about["cases"].items()
+    """Each tree and style that was run at resolutions, once."""
+    endings = {
+        name: f"-{page['resolution']}-{page['style']}"
+        for name, page in results.about["cases"].items()
+    }
     return list(
         dict.fromkeys(
-            (name.removesuffix(f"-{page['resolution']}-{page['style']}"), page["style"])
-            for name, page in pages
-            if name.endswith(f"-{page['resolution']}-{page['style']}")
+            (name.removesuffix(ending), results.about["cases"][name]["style"])
+            for name, ending in endings.items()
+            if name.endswith(ending)
         )
     )
 
@@ -144,97 +123,91 @@ def tree_styles(results: Results) -> list[tuple[str, str]]:
 def parts_section(results: Results) -> Iterator[str]:
     yield "## Field and mesh apart, 128 voxels"
     yield ""
-    yield "Milliseconds. What makes no field, or mixes the two, has the whole alone."
+    yield (
+        "Milliseconds. leafhull's isotropic field is hash, bounds and field at a known T, as the "
+        "peers' is; the controlled one is steps 1 to 6 of the paper. Who mixes the two, or makes "
+        "no field, has the whole alone."
+    )
     yield ""
+    header = ("contender", "field", "mesh", "whole", "vertices", "rounds")
     for tree, style in tree_styles(results):
         case = f"{tree}-128-{style}"
-        names = [name for name in results.contenders(case) if results.values(case, name, "total")]
         rows = [
-            (name,
-             *(spread(results, case, name, part) for part in ("field", "mesh", "total")),
-             number(results.median(case, name, "vertices")),
-             str(len(results.values(case, name, "total"))))
-            for name in names
-        ]  # fmt: skip
+            (
+                name,
+                *(spread(results, case, name, part) for part in ("field", "mesh", "total")),
+                number(results.median(case, name, "vertices")),
+                str(len(totals)),
+            )
+            for name in results.contenders(case)
+            if name != limit.PROGRAM and (totals := results.values(case, name, "total"))
+        ]
         if rows:
-            page = results.about["cases"][case]
-            yield f"### {case}: {page['count']:,} leaf vertices"
-            yield ""
-            header = ("contender", "field", "mesh", "whole", "vertices", "rounds")
-            yield from table(header, rows)
+            count = results.about["cases"][case]["count"]
+            yield from section(f"### {tree}, {style}: {count:,} leaf vertices", "", header, rows)
 
 
-def stages_section(results: Results) -> Iterator[str]:
-    yield "## leafhull's stages, painterly, 128 voxels"
-    yield ""
+def stages_section(results: Results) -> list[str]:
     columns = [
         (f"{tree}-128-painterly", name)
         for tree, style in tree_styles(results)
-        if style == "painterly"
         for name in who.OURS
+        if style == "painterly" and results.values(f"{tree}-128-painterly", name, "total")
     ]
-    columns = [key for key in columns if results.values(*key, "total")]
+    if not columns:
+        return []
     stages = dict.fromkeys(r.part for r in results.records if r.part.startswith(STAGES))
-    header = ("ms", *(f"{case}, {name.removeprefix('leafhull ')}" for case, name in columns))
-    rows = (
+    header = ("ms", *(f"{case.removesuffix('-128-painterly')} {name.removeprefix('leafhull ')}"
+                      for case, name in columns))  # fmt: skip
+    rows = [
         (stage.removeprefix(STAGES), *(milliseconds(results.median(*key, stage)) for key in columns))
         for stage in stages
-    )
-    yield from table(header, rows)
+    ]
+    return section("## leafhull's stages, painterly, 128 voxels", "", header, rows)
 
 
-def series_section(results: Results) -> Iterator[str]:
-    yield "## Time and memory against leaf vertices"
-    yield ""
-    yield "Synthetic crowns at one mean density, radius and voxel size."
-    yield ""
+def series_section(results: Results) -> list[str]:
     rows = []
     for count in plan.SERIES:
         case = plan.series_case(count).name
         for name in who.OURS:
-            if results.values(case, name, "total"):
-                memory = slopes.beside_mesh(results, case, name)
-                whole = results.median(case, name, "total")
+            if whole := results.median(case, name, "total"):
                 voxels = results.median(case, name, "evaluated_voxels")
+                memory = slopes.beside_mesh(results, case, name)
                 rows.append((f"{count:,}, {name}", spread(results, case, name, "total"),
                              number(1e9 * whole / count), number(voxels),
                              number(memory / 2**20)))  # fmt: skip
     header = ("leaf vertices", "whole, ms", "ns per leaf vertex", "evaluated voxels",
               "peak memory beside the mesh, MiB")  # fmt: skip
-    yield from table(header, rows)
+    note = "Synthetic crowns at one mean density, radius and voxel size."
+    return section("## Time and memory against leaf vertices", note, header, rows)
+
+
+def cold_section(results: Results) -> list[str]:
+    rows = [
+        (record.contender, record.part.removeprefix(SETUP), milliseconds(record.value))
+        for record in results.records
+        if record.part.startswith(SETUP)
+        and record.contender in (who.COLD, *who.OURS)
+        and record.case == "birch-128-painterly"
+    ]
+    note = "What comes before a warm run of the birch at 128 voxels, painterly."
+    return section("## Cold", note, ("contender", "what", "ms"), rows)
 
 
 def contender_section(results: Results) -> Iterator[str]:
-    yield "## Contenders"
-    yield ""
     versions = dict.fromkeys((r.contender, r.version) for r in results.records)
-    yield from table(("contender", "version"), versions)
+    yield from section("## Contenders", "", ("contender", "version"), versions)
     absent: dict[tuple[str, str], list[str]] = {}
     for entry in results.about["absent"]:
         absent.setdefault((entry["contender"], entry["reason"]), []).append(entry["case"])
-    if absent:
-        yield "Could not be run:"
-        yield ""
-        rows = ((name, why, ", ".join(cases)) for (name, why), cases in absent.items())
-        yield from table(("contender", "why", "cases"), rows)
-
-
-def setup_section(results: Results) -> Iterator[str]:
-    yield "## Cold"
-    yield ""
-    rows = [
-        (record.case, record.contender, record.part.removeprefix("setup: "),
-         milliseconds(record.value))
-        for record in results.records
-        if record.part.startswith("setup: ") and record.contender in (who.COLD, *who.OURS)
-        and record.case == "birch-128-painterly"
-    ]  # fmt: skip
-    yield from table(("case", "contender", "what", "ms"), rows)
+    rows = [(name, why, ", ".join(cases)) for (name, why), cases in absent.items()]
+    yield from section("### Could not be run", "", ("contender", "why", "cases"), rows)
 
 
 SECTIONS = (head, targets_section, table2_section, whole_section, parts_section, stages_section,
-            limit.section, series_section, setup_section, contender_section)  # fmt: skip
+            limit.section, series_section, cold_section, contender_section)  # fmt: skip
 
 
 def page(results: Results) -> str:
-    return "\n".join(line for section in SECTIONS for line in section(results))
+    return "\n".join(line for part in SECTIONS for line in part(results))

@@ -57,7 +57,7 @@ def bytes_per_voxel(results: Results, tree: str, contender: str) -> float | None
         memory = beside_mesh(results, case, contender)
         if voxels is not None and memory is not None:
             points.append((voxels, memory))
-    return linear_regression(*zip(*points)).slope if len(points) > 1 else None
+    return linear_regression(*zip(*points)).slope if len(points) == len(plan.RESOLUTIONS) else None
 
 
 def bytes_per_leaf_vertex(results: Results, contender: str, per_voxel: float) -> float | None:
@@ -69,4 +69,4 @@ def bytes_per_leaf_vertex(results: Results, contender: str, per_voxel: float) ->
         memory = beside_mesh(results, case, contender)
         if voxels is not None and memory is not None:
             points.append((count, memory - per_voxel * voxels))
-    return linear_regression(*zip(*points)).slope if len(points) > 1 else None
+    return linear_regression(*zip(*points)).slope if len(points) == len(plan.SERIES) else None
