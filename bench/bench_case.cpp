@@ -2,10 +2,10 @@
 // bench_case TREE -o FOLDER: writes FOLDER/case.json and the leaf vertices that it names.
 #include <cstdio>
 
-#include "contender.h"
+#include "bench/contender.h"
+#include "bench/trees.h"
 #include "leafhull/error.h"
 #include "pipeline/grid.h"
-#include "trees.h"
 
 namespace leafhull::bench {
 namespace {

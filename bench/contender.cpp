@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "contender.h"
+#include "bench/contender.h"
 
 #include <sys/resource.h>
 

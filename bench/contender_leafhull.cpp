@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // leafhull itself, warm: its kernels are compiled before the first run.
-#include "contender.h"
+#include "bench/contender.h"
+#include "bench/trees.h"
 #include "density/control.h"
 #include "leafhull/device.h"
 #include "leafhull/shape.h"
 #include "leafhull/version.h"
 #include "pipeline/evaluate.h"
 #include "pipeline/grid.h"
-#include "trees.h"
 
 namespace leafhull::bench {
 namespace {

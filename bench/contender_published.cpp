@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The paper's program on today's machine: plain C++, one thread.
-#include "contender.h"
-#include "published.h"
+#include "bench/contender.h"
+#include "bench/published.h"
 
 namespace leafhull::bench {
 namespace {

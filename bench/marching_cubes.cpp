@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "marching_cubes.h"
+#include "bench/marching_cubes.h"
 
 #include <limits>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "published.h"
+#include "bench/published.h"
 
 #include <algorithm>
 #include <cmath>

@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "bench/marching_cubes.h"
 #include "leafhull/vec.h"
-#include "marching_cubes.h"
 
 namespace leafhull::bench::published {
 

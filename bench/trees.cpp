@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "trees.h"
+#include "bench/trees.h"
 
 #include <charconv>
 #include <cmath>
