@@ -23,6 +23,25 @@ class Unavailable(Exception):
     """The contender cannot take part (any longer); the message says why."""
 
 
+def call(command: list[str], environment: Mapping[str, str] | None = None) -> str:
+    """What a program that runs to its end says on standard output."""
+    try:
+        return subprocess.run(
+            command,
+            check=True,
+            capture_output=True,
+            text=True,
+            timeout=ANSWER_SECONDS,
+            env={**os.environ, **(environment or {})},
+        ).stdout
+    except FileNotFoundError:
+        raise Unavailable(f"{Path(command[0]).name} is not there") from None
+    except subprocess.TimeoutExpired:
+        raise Unavailable(f"not done within {ANSWER_SECONDS} s") from None
+    except subprocess.CalledProcessError as error:
+        raise Unavailable(f"status {error.returncode}: {error.stderr.strip()}") from None
+
+
 class Contender:
     def __init__(self, command: list[str], environment: Mapping[str, str] | None = None) -> None:
         self._log = tempfile.TemporaryFile("w+")

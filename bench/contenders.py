@@ -18,6 +18,7 @@ PUBLISHED = tuple(f"published {method}" for method in METHODS)
 LITERAL = "published controlled, literally"
 SPHERES = "OpenVDB rasterizeSmoothSpheres"
 PEERS = ("OpenVDB ParticlesToLevelSet", "CGAL alpha_wrap_3", "Blender", "splashsurf")
+SURVEYS = tuple(f"bench_limit {method}" for method in METHODS)
 COLD = "leafhull controlled, kernels to compile"
 
 
@@ -32,8 +33,17 @@ def program(name: str, *options: str) -> list[str]:
     return [str(PROGRAMS / name), "CASE", *options]
 
 
-BLENDER = ["blender", "--background", "--factory-startup", "--python-exit-code", "1",
-           "--python", str(SCRIPTS / "blender_contender.py"), "--", "CASE"]  # fmt: skip
+BLENDER = [
+    "blender",
+    "--background",
+    "--factory-startup",
+    "--python-exit-code",
+    "1",
+    "--python",
+    str(SCRIPTS / "blender_contender.py"),
+    "--",
+    "CASE",
+]
 
 COMMANDS = {
     **{f"leafhull {m}": program("contender_leafhull", "--method", m) for m in METHODS},

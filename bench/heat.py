@@ -30,14 +30,18 @@ class Entrant(NamedTuple):
 class Limits(NamedTuple):
     rounds: int
     seconds: float  # an entrant whose rounds would take longer runs fewer, one at least
+    warm_up: bool = True
 
     def rounds_of(self, warm_up: float) -> int:
         return max(1, min(self.rounds, int(self.seconds / warm_up)))
 
 
 def unit_of(part: str) -> str:
-    stage = part.split(": ")[0] in ("stages", "setup")
-    return "s" if stage or part in SECONDS else "bytes" if part.endswith("_bytes") else ""
+    *groups, name = part.split(": ")
+    if name.endswith("_bytes"):
+        return "bytes"
+    seconds = name in SECONDS or name.endswith("_seconds") or groups in (["stages"], ["setup"])
+    return "s" if seconds else ""
 
 
 def parts_of(answer: dict, prefix: str = "") -> Iterator[tuple[str, float]]:
@@ -60,7 +64,8 @@ class Heat:
         try:
             for entrant in entrants:
                 self._start(entrant)
-            for number in range(WARM_UP, self._limits.rounds + 1):
+            first = WARM_UP if self._limits.warm_up else WARM_UP + 1
+            for number in range(first, self._limits.rounds + 1):
                 for entrant in list(self._running):
                     if number <= self._rounds.get(entrant, self._limits.rounds):
                         self._run(entrant, number)

@@ -9,8 +9,8 @@ from pathlib import Path
 from typing import NamedTuple
 
 import contenders as who
+from commands import Extraction, Survey
 from heat import Entrant
-from startup import Command
 
 SHARED = who.ROOT.parent / "shared/trees"
 EXAMPLES = who.ROOT / "examples"
@@ -18,6 +18,7 @@ CASES = who.ROOT / "build/bench/cases"
 
 TREES = ("aspen-52648", "birch", "ash")
 STAND_INS = {"aspen-52648": "synthetic:52648", "birch": "synthetic:56740"}
+CROWNS = ("synthetic:400000", "synthetic:1000000")
 RESOLUTIONS = (32, 64, 128, 256)
 STYLES = ("painterly", "r1.5")
 
@@ -96,34 +97,56 @@ def contenders_of(tree: str, resolution: int, style: str) -> tuple[str, ...]:
     return tuple(names)
 
 
+def limits(case: Case) -> list[Entrant]:
+    program = who.PROGRAMS / "bench_limit"
+    return [
+        Entrant(case.name, name, lambda m=method: Survey(program, case.made(), m))
+        for name, method in zip(who.SURVEYS, who.METHODS, strict=True)
+    ]
+
+
 def startup() -> list[Entrant]:
     bush = SHARED / "bush.glb"
     tree = bush if bush.exists() else EXAMPLES / "ash.glb"
     case = f"{STARTUP}-{tree.stem}-draft"
     return [
-        Entrant(case, CACHED, lambda: Command(who.LEAFHULL, tree, fresh=False)),
-        Entrant(case, FRESH, lambda: Command(who.LEAFHULL, tree, fresh=True)),
+        Entrant(case, CACHED, lambda: Extraction(who.LEAFHULL, tree, fresh=False)),
+        Entrant(case, FRESH, lambda: Extraction(who.LEAFHULL, tree, fresh=True)),
     ]
 
 
+def painterly(tree: str, resolution: int = 128) -> Case:
+    return tree_case(tree, resolution, "painterly")
+
+
 def heats() -> Iterator[list[Entrant]]:
-    """What the targets need comes first."""
+    """Each in turn; what the targets need comes first."""
     yield startup()
     for tree in TREES:
-        yield entrants(tree_case(tree, 128, "painterly"), who.THREADS)
+        yield entrants(painterly(tree), who.THREADS)
     yield [e for count in SERIES for e in entrants(series_case(count), who.OURS)]
-    yield entrants(tree_case("synthetic:400000", 128, "painterly"), (*who.OURS, who.SPHERES))
-    yield entrants(tree_case("synthetic:1000000", 128, "painterly"), (*who.OURS, who.SPHERES))
+    for tree in CROWNS:
+        yield entrants(painterly(tree), (*who.OURS, who.SPHERES))
     for tree in TREES:
         for style in STYLES:
             for resolution in RESOLUTIONS:
                 names = contenders_of(tree, resolution, style)
                 yield entrants(tree_case(tree, resolution, style), names)
-    yield entrants(tree_case("birch", 128, "painterly"), (who.COLD,))
+
+
+def surveys() -> Iterator[list[Entrant]]:
+    """What is measured once, without a warm-up."""
+    yield entrants(painterly("birch"), (who.COLD,))
+    for tree in (*TREES, CROWNS[0]):
+        yield limits(painterly(tree))
 
 
 def quick_heats() -> Iterator[list[Entrant]]:
     yield startup()
     for resolution in (32, 64):
-        case = tree_case("ash", resolution, "painterly")
-        yield entrants(case, (*who.OURS, who.SPHERES, *who.PUBLISHED, *who.PEERS))
+        names = (*who.OURS, who.SPHERES, *who.PUBLISHED, *who.PEERS)
+        yield entrants(painterly("ash", resolution), names)
+
+
+def quick_surveys() -> Iterator[list[Entrant]]:
+    yield limits(painterly("ash", 64))

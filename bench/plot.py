@@ -64,8 +64,15 @@ def legend(axes, place: str) -> None:
 def lines(axes, curves: dict[str, dict[int, float]]) -> None:
     for (name, points), ink, marker, dash in zip(curves.items(), INKS, MARKERS, DASHES):
         if points:
-            axes.plot(*zip(*points.items()), dash, color=ink, marker=marker, markersize=4,
-                      linewidth=1.2, label=name)  # fmt: skip
+            axes.plot(
+                *zip(*points.items()),
+                dash,
+                color=ink,
+                marker=marker,
+                markersize=4,
+                linewidth=1.2,
+                label=name,
+            )
     axes.set_xscale("log")
     axes.set_yscale("log")
     axes.set_ylabel("whole run, s")
@@ -108,7 +115,9 @@ def write(results: Results, path: Path) -> None:
         figure.suptitle(
             f"leafhull and its peers, {machine['CPU']}, {machine['cores']} cores, "
             f"{results.about['date']}: medians, lines from the least to the most",
-            x=0.01, ha="left", fontsize=9,
-        )  # fmt: skip
+            x=0.01,
+            ha="left",
+            fontsize=9,
+        )
         figure.savefig(path, metadata={"Date": None})
         pyplot.close(figure)

@@ -61,7 +61,9 @@ class Results:
         with stem.with_suffix(".csv").open("w", newline="") as file:
             writer = csv.writer(file, lineterminator="\n")
             writer.writerow(Record._fields)
-            writer.writerows(record._replace(value=f"{record.value:.9g}") for record in self.records)
+            writer.writerows(
+                record._replace(value=f"{record.value:.9g}") for record in self.records
+            )
         stem.with_suffix(".json").write_text(json.dumps(self.about, indent=2) + "\n")
 
 

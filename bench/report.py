@@ -18,7 +18,9 @@ SETUP = "setup: "
 REFERENCE = who.OURS[0]
 
 
-def section(title: str, note: str, header: Iterable[str], rows: Iterable[Iterable[str]]) -> list[str]:
+def section(
+    title: str, note: str, header: Iterable[str], rows: Iterable[Iterable[str]]
+) -> list[str]:
     lines = table(header, rows)
     return [title, "", *([note, ""] if note else []), *lines] if lines else []
 
@@ -61,8 +63,14 @@ def table2_section(results: Results) -> list[str]:
         "algorithm is the contender of that name, on this machine. The paper does not say with "
         "which radius it measured: r1.5 has R and T of its Figure 17 (c)."
     )
-    header = ("method, style, voxels", "paper", "published", "leafhull", "paper over leafhull",
-              "published over leafhull")  # fmt: skip
+    header = (
+        "method, style, voxels",
+        "paper",
+        "published",
+        "leafhull",
+        "paper over leafhull",
+        "published over leafhull",
+    )
     rows = [
         (f"{row.method}, {style}, {row.resolution}", *map(number, row.values))
         for style in plan.STYLES
@@ -98,7 +106,7 @@ def whole_section(results: Results) -> Iterator[str]:
             name
             for _, case in cases
             for name in results.contenders(case)
-            if name not in (*who.THREADS, who.COLD, limit.PROGRAM)
+            if name not in (*who.THREADS, who.COLD, *who.SURVEYS)
         )
         header = ("contender", *(str(resolution) for resolution, _ in cases))
         rows = [(name, *(whole_cell(results, case, name) for _, case in cases)) for name in names]
@@ -140,7 +148,7 @@ def parts_section(results: Results) -> Iterator[str]:
                 str(len(totals)),
             )
             for name in results.contenders(case)
-            if name != limit.PROGRAM and (totals := results.values(case, name, "total"))
+            if name not in who.SURVEYS and (totals := results.values(case, name, "total"))
         ]
         if rows:
             count = results.about["cases"][case]["count"]
@@ -157,10 +165,18 @@ def stages_section(results: Results) -> list[str]:
     if not columns:
         return []
     stages = dict.fromkeys(r.part for r in results.records if r.part.startswith(STAGES))
-    header = ("ms", *(f"{case.removesuffix('-128-painterly')} {name.removeprefix('leafhull ')}"
-                      for case, name in columns))  # fmt: skip
+    header = (
+        "ms",
+        *(
+            f"{case.removesuffix('-128-painterly')} {name.removeprefix('leafhull ')}"
+            for case, name in columns
+        ),
+    )
     rows = [
-        (stage.removeprefix(STAGES), *(milliseconds(results.median(*key, stage)) for key in columns))
+        (
+            stage.removeprefix(STAGES),
+            *(milliseconds(results.median(*key, stage)) for key in columns),
+        )
         for stage in stages
     ]
     return section("## leafhull's stages, painterly, 128 voxels", "", header, rows)
@@ -174,11 +190,22 @@ def series_section(results: Results) -> list[str]:
             if whole := results.median(case, name, "total"):
                 voxels = results.median(case, name, "evaluated_voxels")
                 memory = slopes.beside_mesh(results, case, name)
-                rows.append((f"{count:,}, {name}", spread(results, case, name, "total"),
-                             number(1e9 * whole / count), number(voxels),
-                             number(memory / 2**20)))  # fmt: skip
-    header = ("leaf vertices", "whole, ms", "ns per leaf vertex", "evaluated voxels",
-              "peak memory beside the mesh, MiB")  # fmt: skip
+                rows.append(
+                    (
+                        f"{count:,}, {name}",
+                        spread(results, case, name, "total"),
+                        number(1e9 * whole / count),
+                        number(voxels),
+                        number(memory / 2**20),
+                    )
+                )
+    header = (
+        "leaf vertices",
+        "whole, ms",
+        "ns per leaf vertex",
+        "evaluated voxels",
+        "peak memory beside the mesh, MiB",
+    )
     note = "Synthetic crowns at one mean density, radius and voxel size."
     return section("## Time and memory against leaf vertices", note, header, rows)
 
@@ -205,8 +232,18 @@ def contender_section(results: Results) -> Iterator[str]:
     yield from section("### Could not be run", "", ("contender", "why", "cases"), rows)
 
 
-SECTIONS = (head, targets_section, table2_section, whole_section, parts_section, stages_section,
-            limit.section, series_section, cold_section, contender_section)  # fmt: skip
+SECTIONS = (
+    head,
+    targets_section,
+    table2_section,
+    whole_section,
+    parts_section,
+    stages_section,
+    limit.section,
+    series_section,
+    cold_section,
+    contender_section,
+)
 
 
 def page(results: Results) -> str:

@@ -4,11 +4,12 @@
 
 import argparse
 import datetime
+import math
 import re
 import sys
 import time
-from collections.abc import Iterable
 from pathlib import Path
+from typing import NamedTuple
 
 import contenders as who
 import machine
@@ -19,12 +20,15 @@ from records import Results
 
 FULL = Limits(rounds=5, seconds=12)
 QUICK = Limits(rounds=2, seconds=4)
+ONCE = Limits(rounds=1, seconds=math.inf, warm_up=False)
 
 
 def arguments() -> argparse.Namespace:
     parser = argparse.ArgumentParser(prog="./dev bench", description=__doc__)
     parser.add_argument("--quick", action="store_true", help="a small tree, 2 rounds")
-    parser.add_argument("--case", metavar="REGEX", help="only the cases whose name it finds")
+    parser.add_argument(
+        "--case", metavar="REGEX", default="", help="only the cases whose name it finds"
+    )
     return parser.parse_args()
 
 
@@ -37,25 +41,37 @@ def stem(asked: argparse.Namespace, day: str) -> Path:
     return folder / f"{day}-{cpu}{'-quick' if asked.quick else ''}"
 
 
-def chosen(heats: Iterable[list[Entrant]], case: str | None) -> list[list[Entrant]]:
-    kept = [[e for e in heat if re.search(case or "", e.case)] for heat in heats]
-    return [heat for heat in kept if heat]
+class Job(NamedTuple):
+    entrants: list[Entrant]
+    limits: Limits
 
 
-def run(heats: list[list[Entrant]], limits: Limits, results: Results) -> None:
+def jobs(quick: bool, case: str) -> list[Job]:
+    """Those heats and surveys whose cases were chosen."""
+    heats, surveys, limits = (
+        (plan.quick_heats(), plan.quick_surveys(), QUICK)
+        if quick
+        else (plan.heats(), plan.surveys(), FULL)
+    )
+    every = [Job(heat, limits) for heat in heats] + [Job(survey, ONCE) for survey in surveys]
+    kept = [Job([e for e in job.entrants if re.search(case, e.case)], job.limits) for job in every]
+    return [job for job in kept if job.entrants]
+
+
+def run(todo: list[Job], results: Results) -> None:
     began = time.monotonic()
-    for number, heat in enumerate(heats, 1):
+    for number, job in enumerate(todo, 1):
         minutes = (time.monotonic() - began) / 60
-        cases = ", ".join(dict.fromkeys(entrant.case for entrant in heat))
-        print(f"[{minutes:4.1f} min] {number}/{len(heats)} {cases}", file=sys.stderr)
-        Heat(limits, results).run(heat)
+        cases = ", ".join(dict.fromkeys(entrant.case for entrant in job.entrants))
+        print(f"[{minutes:4.1f} min] {number}/{len(todo)} {cases}", file=sys.stderr)
+        Heat(job.limits, results).run(job.entrants)
     results.about["minutes"] = round((time.monotonic() - began) / 60, 1)
 
 
 def main() -> None:
     asked = arguments()
-    heats = chosen(plan.quick_heats() if asked.quick else plan.heats(), asked.case)
-    if not heats:
+    todo = jobs(asked.quick, asked.case)
+    if not todo:
         sys.exit(f"bench: no case's name matches {asked.case}")
     day = datetime.date.today().isoformat()
     results = Results(
@@ -68,7 +84,7 @@ def main() -> None:
     )
     for tree, other in plan.stand_ins().items():
         print(f"bench: THERE IS NO {tree} HERE; {other} RUNS IN ITS PLACE", file=sys.stderr)
-    run(heats, QUICK if asked.quick else FULL, results)
+    run(todo, results)
     names = dict.fromkeys(record.case for record in results.records)
     results.about["cases"] = {name: about for name in names if (about := plan.about(name))}
     path = stem(asked, day)

@@ -48,25 +48,34 @@ def beside_mesh(results: Results, case: str, contender: str) -> float | None:
     return peak - VERTEX_BYTES * vertices - TRIANGLE_BYTES * faces
 
 
+def slope(points: list[tuple[float | None, float | None]]) -> float | None:
+    """That of the line through all points; none where a value is missing."""
+    if any(None in point for point in points):
+        return None
+    x, y = zip(*points, strict=True)
+    return linear_regression(x, y).slope
+
+
 def bytes_per_voxel(results: Results, tree: str, contender: str) -> float | None:
-    """The slope over a tree's resolutions."""
-    points = []
-    for resolution in plan.RESOLUTIONS:
-        case = f"{tree}-{resolution}-painterly"
-        voxels = results.median(case, contender, "evaluated_voxels")
-        memory = beside_mesh(results, case, contender)
-        if voxels is not None and memory is not None:
-            points.append((voxels, memory))
-    return linear_regression(*zip(*points)).slope if len(points) == len(plan.RESOLUTIONS) else None
+    """Over a tree's resolutions."""
+    cases = [f"{tree}-{resolution}-painterly" for resolution in plan.RESOLUTIONS]
+    return slope(
+        [
+            (
+                results.median(case, contender, "evaluated_voxels"),
+                beside_mesh(results, case, contender),
+            )
+            for case in cases
+        ]
+    )
 
 
 def bytes_per_leaf_vertex(results: Results, contender: str, per_voxel: float) -> float | None:
-    """The slope over the scaling series, less what its voxels take."""
-    points = []
-    for count in plan.SERIES:
-        case = plan.series_case(count).name
-        voxels = results.median(case, contender, "evaluated_voxels")
+    """Over the scaling series, less what its voxels take."""
+
+    def beside_voxels(case: str) -> float | None:
         memory = beside_mesh(results, case, contender)
-        if voxels is not None and memory is not None:
-            points.append((count, memory - per_voxel * voxels))
-    return linear_regression(*zip(*points)).slope if len(points) == len(plan.SERIES) else None
+        voxels = results.median(case, contender, "evaluated_voxels")
+        return None if memory is None or voxels is None else memory - per_voxel * voxels
+
+    return slope([(count, beside_voxels(plan.series_case(count).name)) for count in plan.SERIES])

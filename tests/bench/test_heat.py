@@ -46,8 +46,9 @@ class ContenderTest(FakeTest):
         self.assert_unavailable("^ended with status 1: the roof fell in$", fake.run)
 
     def test_what_is_not_there_is_said(self):
-        self.assert_unavailable("^no-such-program is not there$",
-                                lambda: Contender(["/nowhere/no-such-program"]))  # fmt: skip
+        self.assert_unavailable(
+            "^no-such-program is not there$", lambda: Contender(["/nowhere/no-such-program"])
+        )
 
     def test_nobody_waits_for_ever(self):
         with mock.patch.object(contender, "ANSWER_SECONDS", 0.3):
@@ -74,8 +75,17 @@ class HeatTest(FakeTest):
     def test_records_every_number_with_its_unit(self):
         results = self.heat({"A": ""}, rounds=1)
         units = {r.part: r.unit for r in results.records}
-        self.assertEqual(units, {"setup: open": "s", "field": "s", "total": "s", "vertices": "",
-                                 "stages: hash": "s", "peak_memory_bytes": "bytes"})  # fmt: skip
+        self.assertEqual(
+            units,
+            {
+                "setup: open": "s",
+                "field": "s",
+                "total": "s",
+                "vertices": "",
+                "stages: hash": "s",
+                "peak_memory_bytes": "bytes",
+            },
+        )
 
     def test_the_slow_run_fewer_rounds(self):
         results = self.heat({"A": "", "B": "slow"})

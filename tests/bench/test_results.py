@@ -106,14 +106,16 @@ class ReportTest(unittest.TestCase):
             },
             "absent": [{"case": CASE, "contender": "CGAL alpha_wrap_3", "reason": "no CGAL"}],
         }
-        self.page = report.page(results_of(
-            {
-                (CASE, "leafhull isotropic", "total"): [0.04, 0.05, 0.07],
-                (CASE, "Blender", "total"): [0.3],
-                ("birch-256-painterly", "leafhull isotropic", "total"): [0.2, 0.2, 0.2],
-            },
-            about,
-        )).splitlines()  # fmt: skip
+        self.page = report.page(
+            results_of(
+                {
+                    (CASE, "leafhull isotropic", "total"): [0.04, 0.05, 0.07],
+                    (CASE, "Blender", "total"): [0.3],
+                    ("birch-256-painterly", "leafhull isotropic", "total"): [0.2, 0.2, 0.2],
+                },
+                about,
+            )
+        ).splitlines()
 
     def test_a_cell_has_median_spread_and_ratio(self):
         self.assertIn(
@@ -128,7 +130,9 @@ class ReportTest(unittest.TestCase):
         self.assertIn(f"| CGAL alpha_wrap_3 | no CGAL | {CASE} |", self.page)
 
     def test_a_tree_that_is_not_here_is_said_loudly(self):
-        self.assertIn("**There was no aspen-52648 here: synthetic:52648 ran in its place.**", self.page)
+        self.assertIn(
+            "**There was no aspen-52648 here: synthetic:52648 ran in its place.**", self.page
+        )
 
 
 if __name__ == "__main__":
