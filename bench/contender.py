@@ -7,6 +7,7 @@
 
 What goes wrong is one line {"error": "..."}. Lines that are not JSON objects are chatter."""
 
+import contextlib
 import json
 import os
 import re
@@ -80,10 +81,8 @@ class Contender:
         self._process.kill()
         self._process.wait()
         for stream in (self._process.stdin, self._process.stdout):
-            try:
+            with contextlib.suppress(BrokenPipeError):
                 stream.close()
-            except BrokenPipeError:
-                pass
         self._log.close()
 
     def _forget_peak_memory(self) -> None:

@@ -3,15 +3,11 @@
 
 from pathlib import Path
 
-import matplotlib
-
 import contenders as who
 import plan
 import slopes
+from matplotlib import pyplot, ticker
 from records import Results
-
-matplotlib.use("svg")
-from matplotlib import pyplot  # noqa: E402
 
 # Apart for colour-blind readers (Okabe and Ito), by lightness and by marker in grey.
 INKS = ("#000000", "#0072B2", "#D55E00", "#56B4E9", "#E69F00")
@@ -41,7 +37,7 @@ def beside_peers(axes, results: Results) -> None:
         for name in (*who.OURS, who.SPHERES, *who.PEERS, *who.PUBLISHED)
         if any(results.values(case, name, "total") for case in cases)
     ]
-    for tree, case, ink, marker in zip(plan.TREES, cases, INKS, MARKERS):
+    for tree, case, ink, marker in zip(plan.TREES, cases, INKS, MARKERS, strict=False):
         for row, name in enumerate(names):
             if values := results.values(case, name, "total"):
                 label = tree if row == 0 else None
@@ -51,21 +47,39 @@ def beside_peers(axes, results: Results) -> None:
     axes.set_yticks(range(len(names)), names)
     axes.invert_yaxis()
     axes.set_xscale("log")
+    logarithmic(axes.xaxis)
     axes.set_xlabel("whole run, s")
     axes.set_title("128 voxels, painterly")
-    legend(axes, "lower left")
+    legend(axes, loc="lower right")
 
 
-def legend(axes, place: str) -> None:
+def logarithmic(axis) -> None:
+    """1, 2, 5, 10 as they are written."""
+    axis.set_major_locator(ticker.LogLocator(subs=(1, 2, 5)))
+    axis.set_major_formatter("{x:g}")
+    axis.set_minor_formatter(ticker.NullFormatter())
+
+
+def mark(axis, values: tuple[int, ...]) -> None:
+    """Those values alone: 128, 50 k, 1 M."""
+    axis.set_major_locator(ticker.FixedLocator(values))
+    axis.set_major_formatter(ticker.EngFormatter())
+    axis.set_minor_locator(ticker.NullLocator())
+
+
+def legend(axes, **place) -> None:
     if axes.get_legend_handles_labels()[1]:
-        axes.legend(loc=place)
+        axes.legend(**place)
 
 
 def lines(axes, curves: dict[str, dict[int, float]]) -> None:
-    for (name, points), ink, marker, dash in zip(curves.items(), INKS, MARKERS, DASHES):
+    for (name, points), ink, marker, dash in zip(
+        curves.items(), INKS, MARKERS, DASHES, strict=False
+    ):
         if points:
             axes.plot(
-                *zip(*points.items()),
+                points.keys(),
+                points.values(),
                 dash,
                 color=ink,
                 marker=marker,
@@ -75,8 +89,8 @@ def lines(axes, curves: dict[str, dict[int, float]]) -> None:
             )
     axes.set_xscale("log")
     axes.set_yscale("log")
+    logarithmic(axes.yaxis)
     axes.set_ylabel("whole run, s")
-    legend(axes, "upper left")
 
 
 def by_resolution(axes, results: Results) -> None:
@@ -90,16 +104,16 @@ def by_resolution(axes, results: Results) -> None:
         for name in (*who.OURS, who.SPHERES, "Blender", who.PUBLISHED[1])
     }
     lines(axes, curves)
-    axes.set_xticks(plan.RESOLUTIONS, map(str, plan.RESOLUTIONS))
-    axes.minorticks_off()
+    mark(axes.xaxis, plan.RESOLUTIONS)
+    legend(axes, loc="upper left", bbox_to_anchor=(1, 1))
     axes.set_xlabel("voxels along the longest side")
     axes.set_title(f"{tree}, painterly")
 
 
 def by_leaf_vertices(axes, results: Results) -> None:
     lines(axes, {name: slopes.series_times(results, name) for name in who.OURS})
-    axes.set_xticks(plan.SERIES, [f"{count // 1000} k" for count in plan.SERIES])
-    axes.minorticks_off()
+    mark(axes.xaxis, plan.SERIES)
+    legend(axes, loc="upper left")
     axes.set_xlabel("leaf vertices")
     axes.set_title("Synthetic crowns at one mean density")
 
@@ -107,7 +121,7 @@ def by_leaf_vertices(axes, results: Results) -> None:
 def write(results: Results, path: Path) -> None:
     machine = results.about["machine"]
     with pyplot.rc_context(STYLE):
-        figure = pyplot.figure(figsize=(9, 6), layout="constrained")
+        figure = pyplot.figure(figsize=(10, 6), layout="constrained")
         rows = figure.add_gridspec(2, 2, height_ratios=(1.1, 1))
         beside_peers(figure.add_subplot(rows[0, :]), results)
         by_resolution(figure.add_subplot(rows[1, 0]), results)

@@ -22,7 +22,7 @@ class Record(NamedTuple):
 
 
 class Results:
-    """The records, and in `about` what they cannot say: machine, versions, cases, who was absent."""
+    """The records, and in `about` what they cannot say: date, machine, cases, who was absent."""
 
     def __init__(self, records: Iterable[Record] = (), about: dict | None = None) -> None:
         self.records = list(records)

@@ -211,15 +211,23 @@ def series_section(results: Results) -> list[str]:
 
 
 def cold_section(results: Results) -> list[str]:
+    case = "birch-128-painterly"
     rows = [
-        (record.contender, record.part.removeprefix(SETUP), milliseconds(record.value))
+        (case, record.contender, record.part.removeprefix(SETUP), milliseconds(record.value))
         for record in results.records
         if record.part.startswith(SETUP)
         and record.contender in (who.COLD, *who.OURS)
-        and record.case == "birch-128-painterly"
+        and record.case == case
     ]
-    note = "What comes before a warm run of the birch at 128 voxels, painterly."
-    return section("## Cold", note, ("contender", "what", "ms"), rows)
+    for case in dict.fromkeys(r.case for r in results.records if r.contender == plan.CACHED):
+        cached, fresh = (results.median(case, n, "total") for n in (plan.CACHED, plan.FRESH))
+        rows.append((case, "the command", plan.CACHED, spread(results, case, plan.CACHED, "total")))
+        if fresh is not None:
+            whole = spread(results, case, plan.FRESH, "total")
+            rows.append((case, "the command", plan.FRESH, whole))
+            rows.append((case, "the command", "the difference", milliseconds(fresh - cached)))
+    header = ("case", "contender", "what", "ms")
+    return section("## Cold", "What comes before a warm run, and whole processes.", header, rows)
 
 
 def contender_section(results: Results) -> Iterator[str]:

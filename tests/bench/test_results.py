@@ -3,6 +3,7 @@ import pathlib
 import tempfile
 import unittest
 
+import limit
 import plan
 import report
 import slopes
@@ -92,6 +93,28 @@ class TargetsTest(unittest.TestCase):
 
     def test_what_was_not_measured_is_not_met(self):
         self.assertIsNone(self.target("Blender", {}).met)
+
+
+class LimitTest(unittest.TestCase):
+    def test_shares_and_pairs_are_of_the_field(self):
+        name = "bench_limit isotropic"
+        results = results_of(
+            {
+                (CASE, name, "fma_gflops"): [200],
+                (CASE, name, "bandwidth_gbs"): [30],
+                (CASE, name, "stages: field: device_seconds"): [0.01],
+                (CASE, name, "stages: field: pairs_inside"): [5e7],
+                (CASE, name, "stages: field: pairs_evaluated"): [1e8],
+                (CASE, name, "stages: field: gflops"): [90],
+                (CASE, name, "stages: field: share_of_peak"): [0.45],
+            }
+        )
+        self.assertEqual(limit.percent_of_peak(results), {"birch isotropic": 45})
+        self.assertEqual(limit.pairs_per_inside(results), {"birch isotropic": 2})
+        self.assertIn(
+            "| birch isotropic, field | 10.0 | 10.0 | 2.00 | 90.0 | 45.0 |",
+            list(limit.section(results)),
+        )
 
 
 class ReportTest(unittest.TestCase):
