@@ -80,7 +80,7 @@ def section(results: Results) -> Iterator[str]:
     )
     yield ""
     header = (
-        "128 voxels, painterly",
+        "case, stage",
         "device, ms",
         "G pairs/s",
         "evaluated per pair inside",
