@@ -3,7 +3,7 @@
 #include <cstdio>
 
 #include "bench/contender.h"
-#include "bench/trees.h"
+#include "bench/leafhull_case.h"
 #include "leafhull/error.h"
 #include "pipeline/grid.h"
 

@@ -120,7 +120,8 @@ int serve(CLI::App& app, int argc, char** argv,
   std::filesystem::path file;
   int threads = 0;
   app.add_option("CASE", file, "a case that bench_case wrote")->required();
-  app.add_option("--threads", threads, "the most that may be used; 0: all cores");
+  app.add_option("--threads", threads, "the most that may be used; 0: all cores")
+      ->check(CLI::NonNegativeNumber);
   try {
     app.parse(argc, argv);
     answer_runs(prepare(read_case(file), threads));

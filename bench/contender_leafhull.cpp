@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // leafhull itself, warm: its kernels are compiled before the first run.
 #include "bench/contender.h"
-#include "bench/trees.h"
+#include "bench/leafhull_case.h"
+#include "bench/threads.h"
 #include "density/control.h"
 #include "leafhull/device.h"
 #include "leafhull/shape.h"
@@ -11,19 +12,6 @@
 
 namespace leafhull::bench {
 namespace {
-
-Options options_of(const Case& c, Method method) {
-  Options options;
-  options.method = method;
-  options.threshold = c.threshold;
-  options.coverage = c.coverage;
-  options.radius_max = c.radius;
-  options.radius_unit = RadiusUnit::model;
-  options.flatness = c.flatness;
-  options.min_component = c.min_component;
-  options.voxel_size = c.voxel;
-  return resolve(options);
-}
 
 double seconds_of_stage(const Report& report, std::string_view stage) {
   for (const StageTime& s : report.seconds) {
@@ -83,7 +71,9 @@ Contender prepare(const Case& c, Method method, int threads) {
   device_options.threads = threads;
   contender.setup["open device"] =
       seconds_of([&] { device = std::make_shared<Device>(device_options); });
-  contender.run = [=, options = options_of(c, method)] { return run(*leaves, options, *device); };
+  contender.run = [=, limit = limit_threads(threads), options = options_of(c, method)] {
+    return run(*leaves, options, *device);
+  };
   contender.setup["first run, kernels compiled"] = seconds_of(contender.run);
   return contender;
 }
@@ -92,12 +82,9 @@ Contender prepare(const Case& c, Method method, int threads) {
 }  // namespace leafhull::bench
 
 int main(int argc, char** argv) {
-  using leafhull::Method;
   CLI::App app("leafhull, warm.");
-  Method method = Method::controlled;
-  app.add_option("--method", method)
-      ->transform(CLI::CheckedTransformer(std::map<std::string, Method>{
-          {"isotropic", Method::isotropic}, {"controlled", Method::controlled}}));
+  auto method = leafhull::Method::controlled;
+  leafhull::bench::add_method(app, method);
   return leafhull::bench::serve(app, argc, argv, [&](const auto& c, int threads) {
     return leafhull::bench::prepare(c, method, threads);
   });

@@ -4,12 +4,11 @@
 
 #include <openvdb/openvdb.h>
 #include <openvdb/tools/VolumeToMesh.h>
-#include <tbb/global_control.h>
 
-#include <memory>
 #include <vector>
 
 #include "bench/contender.h"
+#include "bench/threads.h"
 
 namespace leafhull::bench {
 
@@ -41,13 +40,8 @@ Json run_openvdb(MakeField&& make_field) {
 template <class MakeField>
 Contender openvdb_contender(const char* name, const Case& c, int threads, MakeField make_field) {
   openvdb::initialize();
-  std::shared_ptr<const tbb::global_control> limit;
-  if (threads > 0) {
-    limit = std::make_shared<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
-                                                  static_cast<std::size_t>(threads));
-  }
   Contender contender{.name = name, .version = OPENVDB_LIBRARY_VERSION_STRING, .threads = threads};
-  contender.run = [limit, make_field, points = openvdb_points(c)] {
+  contender.run = [limit = limit_threads(threads), make_field, points = openvdb_points(c)] {
     return run_openvdb([&] { return make_field(points); });
   };
   return contender;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bench/trees.h"
+#include "bench/synthetic_crown.h"
 
-#include <charconv>
 #include <cmath>
 #include <numbers>
 #include <random>
-#include <string_view>
+#include <string>
+#include <utility>
 
 #include "leafhull/error.h"
 
@@ -85,19 +85,6 @@ TreeModel synthetic_crown(std::size_t leaf_vertices) {
   tree.primitives.push_back(std::move(leaves));
   tree.instances.emplace_back();
   return tree;
-}
-
-LeafSet load_leaves(const std::string& tree) {
-  constexpr std::string_view kSynthetic = "synthetic:";
-  if (!tree.starts_with(kSynthetic)) return find_leaves(read_tree(tree), {});
-  std::size_t count = 0;
-  const char* end = tree.data() + tree.size();
-  const auto [p, error] = std::from_chars(tree.data() + kSynthetic.size(), end, count);
-  if (error != std::errc{} || p != end) {
-    throw Error(ErrorCode::usage, "'" + tree + "' names no number of leaf vertices",
-                "Give synthetic:COUNT.");
-  }
-  return find_leaves(synthetic_crown(count), {});
 }
 
 }  // namespace leafhull::bench

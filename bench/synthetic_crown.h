@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <string>
+#include <cstddef>
 
-#include "leafhull/leaves.h"
+#include "leafhull/tree.h"
 
 namespace leafhull::bench {
-
-/// The leaves of a tree file, or of a synthetic crown where `tree` is synthetic:COUNT.
-LeafSet load_leaves(const std::string& tree);
 
 /// A crown of `leaf_vertices` / 4 quads of one size, scattered along twigs inside an ellipsoid
 /// whose volume grows with their number, so that its mean density does not. The same on every
