@@ -47,6 +47,9 @@ list(APPEND CMAKE_MODULE_PATH ${CMAKE_CURRENT_LIST_DIR})
 leafhull_require(stb 0 "libstb-dev")
 leafhull_require(Eigen3 3.4 "libeigen3-dev" CONFIG)
 leafhull_require(CLI11 2.1 "libcli11-dev" CONFIG)
+if(LEAFHULL_BUILD_BENCH)
+  leafhull_require(CGAL 5.5 "libcgal-dev" CONFIG)
+endif()
 
 # Debian's libdraco exports another version of tinygltf's symbols: the linker must meet ours first.
 target_link_libraries(TinyGLTF::TinyGLTF INTERFACE draco::draco)

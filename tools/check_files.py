@@ -47,7 +47,7 @@ def unlisted_packages():
         if line and not line.startswith("#")
     }
     rows = (ROOT / "cmake/dependencies.cmake").read_text()
-    for packages in re.findall(r'^leafhull_require\(\S+ \S+ "([^"]+)"', rows, re.MULTILINE):
+    for packages in re.findall(r'^ *leafhull_require\(\S+ \S+ "([^"]+)"', rows, re.MULTILINE):
         for package in sorted(set(packages.split()) - listed):
             yield f"packages.txt: {package} is missing, which cmake/dependencies.cmake names"
 

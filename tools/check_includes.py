@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Checks who includes whom: each room of src/ knows only the rooms and the third-party libraries
-of its row in ROOMS, and the public headers know nothing but the standard library."""
+"""Checks who includes whom: each room of src/, and bench/, knows only the rooms and the third-party
+libraries of its row in ROOMS, and the public headers know nothing but the standard library."""
 
 import pathlib
 import re
@@ -19,14 +19,20 @@ ROOMS = {
     "output": (("density", "surface"), ("tinygltf", "openvdb", "json")),
     "pipeline": (("density", "device", "surface"), ("tbb",)),
     "cli": ((), ("cli11", "json")),
+    "bench": (
+        ("density", "device", "pipeline", "surface"),
+        ("cgal", "cli11", "gtest", "json", "opencl", "openvdb", "tbb"),
+    ),
 }
 
 # Library: how the paths of its headers begin.
 LIBRARIES = {
+    "cgal": ("CGAL/",),
     "cli11": ("CLI/",),
     "draco": ("draco/",),
     "eigen": ("Eigen/",),
     "embree": ("embree3/",),
+    "gtest": ("gtest/",),
     "json": ("nlohmann/",),
     "meshoptimizer": ("meshoptimizer.h",),
     "opencl": ("CL/",),
@@ -37,8 +43,10 @@ LIBRARIES = {
     "tinyobjloader": ("tiny_obj_loader.h",),
 }
 
-# Of POSIX and the C library, for files, signals and memory.
-SYSTEM = ("sys/", "fcntl.h", "fnmatch.h", "malloc.h", "poll.h", "signal.h", "unistd.h")
+# Of POSIX and the C library, for files, signals, memory and shared libraries.
+SYSTEM = (
+    "sys/", "dlfcn.h", "fcntl.h", "fnmatch.h", "malloc.h", "poll.h", "signal.h", "unistd.h",
+)
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]', re.MULTILINE)
 
@@ -84,10 +92,10 @@ def main():
     faults = []
     for path in sorted((ROOT / "include").rglob("*.h")):
         faults += check(path, fault_in_public)
-    for path in sorted((ROOT / "src").glob("*/**/*")):
+    for path in sorted([*(ROOT / "src").glob("*/**/*"), *(ROOT / "bench").rglob("*")]):
         if path.suffix not in {".h", ".cpp"}:
             continue
-        room = path.relative_to(ROOT / "src").parts[0]
+        room = path.relative_to(ROOT / "src" if ROOT / "src" in path.parents else ROOT).parts[0]
         if room in ROOMS:
             faults += check(path, lambda header: fault_in_room(room, header))
         else:

@@ -1,0 +1,123 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A program that waits with a case in memory and does one whole run when it is told to.
+
+    contender CASE.json [args]   one line: {"ready": true, "name", "version", "setup": {...}}
+    run                          one line: {"field": s, "mesh": s, "total": s, ...}
+    quit, or end of input        it ends
+
+What goes wrong is one line {"error": "..."}. Lines that are not JSON objects are chatter."""
+
+import contextlib
+import json
+import os
+import re
+import subprocess
+import tempfile
+import threading
+from collections.abc import Mapping
+from pathlib import Path
+
+ANSWER_SECONDS = 300
+
+
+class Unavailable(Exception):
+    """The contender cannot take part (any longer); the message says why."""
+
+
+def call(command: list[str], environment: Mapping[str, str] | None = None) -> str:
+    """What a program that runs to its end says on standard output."""
+    try:
+        return subprocess.run(
+            command,
+            check=True,
+            capture_output=True,
+            text=True,
+            timeout=ANSWER_SECONDS,
+            env={**os.environ, **(environment or {})},
+        ).stdout
+    except FileNotFoundError:
+        raise Unavailable(f"{Path(command[0]).name} is not there") from None
+    except subprocess.TimeoutExpired:
+        raise Unavailable(f"not done within {ANSWER_SECONDS} s") from None
+    except subprocess.CalledProcessError as error:
+        raise Unavailable(f"status {error.returncode}: {error.stderr.strip()}") from None
+
+
+class Contender:
+    def __init__(self, command: list[str], environment: Mapping[str, str] | None = None) -> None:
+        self._log = tempfile.TemporaryFile("w+")
+        try:
+            self._process = subprocess.Popen(
+                command,
+                stdin=subprocess.PIPE,
+                stdout=subprocess.PIPE,
+                stderr=self._log,
+                text=True,
+                env={**os.environ, **(environment or {})},
+            )
+        except FileNotFoundError:
+            self._log.close()
+            raise Unavailable(f"{Path(command[0]).name} is not there") from None
+        try:
+            ready = self._answer()
+        except Unavailable:
+            self.stop()
+            raise
+        self.version: str = ready["version"]
+        self.setup: dict = ready["setup"]
+
+    def run(self) -> dict:
+        """The answer; to it is added what memory the process held at most."""
+        try:
+            self._forget_peak_memory()
+            self._process.stdin.write("run\n")
+            self._process.stdin.flush()
+        except BrokenPipeError:
+            raise Unavailable(self._last_words()) from None
+        answer = self._answer()
+        return answer | {"peak_memory_bytes": self._peak_memory()}
+
+    def stop(self) -> None:
+        self._process.kill()
+        self._process.wait()
+        for stream in (self._process.stdin, self._process.stdout):
+            with contextlib.suppress(BrokenPipeError):
+                stream.close()
+        self._log.close()
+
+    def _forget_peak_memory(self) -> None:
+        Path(f"/proc/{self._process.pid}/clear_refs").write_text("5")
+
+    def _peak_memory(self) -> int:
+        status = Path(f"/proc/{self._process.pid}/status").read_text()
+        found = re.search(r"^VmHWM:\s*(\d+) kB$", status, re.MULTILINE)
+        if not found:
+            raise Unavailable(self._last_words())
+        return 1024 * int(found[1])
+
+    def _answer(self) -> dict:
+        overdue = threading.Event()
+
+        def give_up() -> None:
+            overdue.set()
+            self._process.kill()
+
+        patience = threading.Timer(ANSWER_SECONDS, give_up)
+        patience.start()
+        line = next((text for text in self._process.stdout if text.startswith("{")), None)
+        patience.cancel()
+        if overdue.is_set():
+            raise Unavailable(f"no answer within {ANSWER_SECONDS} s")
+        if line is None:
+            raise Unavailable(self._last_words())
+        answer = json.loads(line)
+        if "error" in answer:
+            raise Unavailable(answer["error"])
+        return answer
+
+    def _last_words(self) -> str:
+        status = self._process.wait()
+        self._log.seek(0)
+        lines = self._log.read().split("\n")
+        said = next((line.strip() for line in reversed(lines) if line.strip()), "nothing said")
+        return f"ended with status {status}: {said}"

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// A case in leafhull's own terms.
+#pragma once
+
+#include <string>
+
+#include "bench/contender.h"
+#include "leafhull/leaves.h"
+#include "leafhull/options.h"
+
+namespace leafhull::bench {
+
+/// The leaves of a tree file, or of a synthetic crown where `tree` is synthetic:COUNT.
+LeafSet load_leaves(const std::string& tree);
+
+/// The case's radius, voxel size and threshold, resolved.
+Options options_of(const Case& c, Method method);
+
+/// Adds --method isotropic|controlled.
+void add_method(CLI::App& app, Method& method);
+
+}  // namespace leafhull::bench

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bench/pairs.h"
+
+#include <openvdb/tools/PointIndexGrid.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "surface/volume.h"
+
+namespace leafhull::bench {
+namespace {
+
+using openvdb::Vec3d;
+
+Vec3d vdb(const leafhull::Vec3d& v) { return {v.x, v.y, v.z}; }
+Vec3d vdb(const Vec3f& v) { return {v.x, v.y, v.z}; }
+
+/// The unit axes over their radii, so that xi is a squared length. Source: Eq. (3).
+struct Support {
+  Vec3d centre;
+  std::array<Vec3d, 3> axes;
+  Vec3d extent;  // half its axis-aligned box
+
+  explicit Support(const Kernel& k) : centre(vdb(k.centre)), extent(0.0) {
+    const Vec3d normal = vdb(k.normal), major = vdb(k.major);
+    const std::array<Vec3d, 3> axis = {major, normal.cross(major), normal};
+    const std::array<double, 3> radius = {k.radius_major, k.radius_minor, k.radius_normal};
+    for (std::size_t a = 0; a < 3; ++a) {
+      axes[a] = axis[a] / radius[a];
+      extent += axis[a] * axis[a] * (radius[a] * radius[a]);
+    }
+    for (int i = 0; i < 3; ++i) extent[i] = std::sqrt(extent[i]);
+  }
+
+  bool holds(const Vec3d& p) const {
+    double xi = 0;
+    for (const Vec3d& axis : axes) xi += std::pow(axis.dot(p - centre), 2);
+    return xi < 1;
+  }
+};
+
+/// Kernel centres as OpenVDB's PointArray.
+struct Centres {
+  using PosType = Vec3d;
+
+  const std::vector<Support>& supports;
+
+  std::size_t size() const { return supports.size(); }
+  void getPos(std::size_t n, Vec3d& position) const { position = supports[n].centre; }
+};
+
+/// Counts the supports that hold `point`, as a filter of PointIndexFilter.
+struct Counter {
+  const std::vector<Support>& supports;
+  Vec3d point{0.0};
+  std::uint64_t inside = 0;
+
+  void reset() {}
+  void operator()(double, std::size_t n) { inside += supports[n].holds(point) ? 1 : 0; }
+};
+
+std::vector<Support> supports_of(std::span<const Kernel> kernels) {
+  return {kernels.begin(), kernels.end()};
+}
+
+}  // namespace
+
+std::uint64_t pairs_inside(std::span<const Kernel> kernels, const Field& field) {
+  const openvdb::FloatGrid::ConstPtr samples = density_grid(field);
+  const openvdb::math::Transform& lattice = samples->transform();
+  auto evaluated = samples->getConstAccessor();
+  std::uint64_t inside = 0;
+  for (const Support& support : supports_of(kernels)) {
+    const auto box = openvdb::CoordBBox(
+        openvdb::Coord::ceil(lattice.worldToIndex(support.centre - support.extent)),
+        openvdb::Coord::floor(lattice.worldToIndex(support.centre + support.extent)));
+    for (auto sample = box.begin(); sample; ++sample) {
+      if (evaluated.isValueOn(*sample) && support.holds(lattice.indexToWorld(*sample))) ++inside;
+    }
+  }
+  return inside;
+}
+
+std::uint64_t pairs_inside(std::span<const Kernel> kernels, std::span<const LeafVertex> leaves) {
+  const std::vector<Support> supports = supports_of(kernels);
+  double reach = 0;
+  for (const Kernel& k : kernels) {
+    reach = std::max<double>({reach, k.radius_major, k.radius_minor, k.radius_normal});
+  }
+  const Centres centres{supports};
+  const auto cells = openvdb::math::Transform::createLinearTransform(reach);
+  const auto index =
+      openvdb::tools::createPointIndexGrid<openvdb::tools::PointIndexGrid>(centres, *cells);
+  openvdb::tools::PointIndexFilter<Centres> filter(centres, index->tree(), *cells);
+  Counter counter{supports};
+  for (const LeafVertex& leaf : leaves) {
+    counter.point = vdb(leaf.position);
+    filter.searchAndApply(counter.point, reach, counter);
+  }
+  return counter.inside;
+}
+
+}  // namespace leafhull::bench
