@@ -26,7 +26,7 @@ std::array<int, 4> corners_of_face(int axis, bool far) {
 }
 
 /// The triangles of each of the 256 cases, as edges. Around every face runs of corners inside are
-/// cut off, from the edge that leaves a run to the one that entered it; an edge with a crossing
+/// cut off, from the edge that enters a run to the one that leaves it; an edge with a crossing
 /// enters on one of its two faces and leaves on the other, so these cuts join into loops.
 using Case = std::vector<std::array<int, 3>>;
 
@@ -40,8 +40,8 @@ Case triangles_of(int inside) {
       if (!is_inside(corner[i]) || is_inside(corner[(i + 1) % 4])) continue;
       int first = i;  // of the run of corners inside that ends at i
       while (is_inside(corner[(first + 3) % 4])) first = (first + 3) % 4;
-      next[edge_between(corner[i], corner[(i + 1) % 4])] =
-          edge_between(corner[(first + 3) % 4], corner[first]);
+      next[edge_between(corner[(first + 3) % 4], corner[first])] =
+          edge_between(corner[i], corner[(i + 1) % 4]);
     }
   }
   Case triangles;
