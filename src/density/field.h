@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <openvdb/openvdb.h>
+
+#include <span>
 #include <vector>
 
 #include "density/lattice.h"
@@ -11,11 +14,47 @@ namespace leafhull {
 /// to be at least the threshold, and nothing where it is proven to be below.
 class Field {
  public:
-  Lattice lattice;
-  double threshold = 0;        ///< T
-  std::vector<Coord> origins;  ///< of the evaluated bricks, each once
-  std::vector<float> samples;  ///< N, kBrickSamples per brick, z fastest
-  std::vector<Block> inside;   ///< proven inside, disjoint from each other and from the bricks
+  using Brick = openvdb::FloatTree::LeafNodeType;
+
+  explicit Field(const Lattice& lattice = {}, double threshold = 0)
+      : lattice_(lattice), threshold_(threshold) {}
+
+  /// Takes evaluated bricks: N, kBrickSamples per origin, z fastest.
+  void add_bricks(std::span<const Coord> origins, std::span<const float> samples);
+  /// Takes blocks that are proven inside, disjoint from each other and from the bricks.
+  void add_inside(std::span<const Block> blocks);
+
+  const Lattice& lattice() const { return lattice_; }
+  double threshold() const { return threshold_; }  ///< T
+
+  /// -N in voxels from the anchor, the sign that OpenVDB's mesher asks for: what is below the
+  /// iso-value is inside. Evaluated samples are active, what is proven inside is tiles.
+  const openvdb::FloatGrid& negated() const { return *negated_; }
+  /// Where the surface is in `negated()`: N >= T is -N < iso_value().
+  float iso_value() const;
+  /// The evaluated bricks, leaf nodes of `negated()`, in the order of their evaluation.
+  std::span<const Brick* const> bricks() const { return bricks_; }
+  std::span<const Block> inside() const { return inside_; }
+
+  std::size_t sample_count() const { return bricks_.size() * kBrickSamples; }
+  /// The highest N evaluated, at least 0.
+  float highest() const;
+
+ private:
+  Lattice lattice_;
+  double threshold_;
+  openvdb::FloatGrid::Ptr negated_ = openvdb::FloatGrid::create(0.0f);
+  std::vector<const Brick*> bricks_;
+  std::vector<Block> inside_;
 };
+
+/// The value of what is proven inside: just above T.
+float inside_value(double threshold);
+
+/// The samples of a block.
+inline openvdb::CoordBBox samples_of(const Block& block) {
+  const Coord o = block.origin;
+  return openvdb::CoordBBox::createCube(openvdb::Coord(o.x, o.y, o.z), block.edge);
+}
 
 }  // namespace leafhull

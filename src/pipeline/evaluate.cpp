@@ -4,6 +4,7 @@
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
+#include <memory>
 
 namespace leafhull {
 namespace {
@@ -54,17 +55,16 @@ DensityFunction::Sampled DensityFunction::sample_band(double threshold, int marg
                                                       const std::function<void(double)>& advance) {
   BandOptions options{.falloff = falloff_, .margin = margin};
   if (!dense) options.lowest = options.highest = threshold;
-  Sampled result;
+  Sampled result{Field(kernels_.lattice(), threshold)};
   Field& field = result.field;
-  field.lattice = kernels_.lattice();
-  field.threshold = threshold;
-  field.inside = find_band(kernels_, options, [&](const BrickList& bricks, double done) {
-    const std::size_t before = field.samples.size();
-    field.origins.insert(field.origins.end(), bricks.origins.begin(), bricks.origins.end());
-    field.samples.resize(before + bricks.size() * kBrickSamples);
-    result.pairs += evaluator_.sample(bricks, std::span(field.samples).subspan(before));
+  const auto inside = find_band(kernels_, options, [&](const BrickList& bricks, double done) {
+    const std::size_t size = bricks.size() * kBrickSamples;
+    const auto samples = std::make_unique_for_overwrite<float[]>(size);
+    result.pairs += evaluator_.sample(bricks, {samples.get(), size});
+    field.add_bricks(bricks.origins, {samples.get(), size});
     advance(done);
   });
+  field.add_inside(inside);
   return result;
 }
 

@@ -19,7 +19,6 @@
 #include "pipeline/stopwatch.h"
 #include "surface/metrics.h"
 #include "surface/polygonise.h"
-#include "surface/volume.h"
 
 namespace leafhull {
 namespace {
@@ -55,13 +54,13 @@ double threshold_of(const Options& options, const DensityStatistics& statistics,
 
 [[noreturn]] void refuse_empty(const Field& field, const Options& options,
                                std::span<const float> at_leaves) {
-  float highest = *std::max_element(at_leaves.begin(), at_leaves.end());
-  for (const float n : field.samples) highest = std::max(highest, n);
+  const float highest =
+      std::max(field.highest(), *std::max_element(at_leaves.begin(), at_leaves.end()));
   char text[200];
   std::snprintf(text, sizeof text,
                 "the surface is empty: no sample reaches the threshold %.4g, the density being at "
                 "most %.4g at the leaf vertices and between",
-                field.threshold, static_cast<double>(highest));
+                field.threshold(), static_cast<double>(highest));
   const char* lower = options.threshold           ? "Lower --threshold"
                       : options.threshold_percent ? "Lower --threshold-percent"
                                                   : "Give --threshold 50% in place of --coverage";
@@ -127,8 +126,7 @@ Shape extract(const LeafSet& leaves, const Options& asked, Device& device,
 
   // Step 7: the surface.
   watch.start("polygonise");
-  const openvdb::FloatGrid::Ptr depth = depth_grid(*field);
-  Polygons polygons = polygonise(*depth, options.adaptivity);
+  Polygons polygons = polygonise(*field, options.adaptivity);
   if (polygons.points.empty()) refuse_empty(*field, options, density_there);
 
   watch.start("snap");
@@ -136,7 +134,7 @@ Shape extract(const LeafSet& leaves, const Options& asked, Device& device,
   shape.mesh = std::move(mesh);
 
   watch.start("metrics");
-  report.metrics = measure(*field, *depth, local_positions(leaves.vertices, lattice));
+  report.metrics = measure(*field, local_positions(leaves.vertices, lattice));
   report.metrics.off_site_exact = static_cast<std::uint64_t>(
       std::count_if(density_there.begin(), density_there.end(),
                     [&](float n) { return static_cast<double>(n) < threshold; }));
@@ -147,7 +145,7 @@ Shape extract(const LeafSet& leaves, const Options& asked, Device& device,
                    .leaf_vertices = leaves.vertices.size(),
                    .dropped_leaves = leaves.dropped_leaves,
                    .split_components = leaves.split_components,
-                   .evaluated_voxels = field->samples.size(),
+                   .evaluated_voxels = field->sample_count(),
                    .evaluated_pairs = pairs,
                    .mesh_vertices = shape.mesh.positions.size(),
                    .mesh_triangles = shape.mesh.triangles.size(),

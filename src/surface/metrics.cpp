@@ -1,113 +1,188 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "surface/metrics.h"
 
+#include <openvdb/openvdb.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
 #include <tbb/parallel_reduce.h>
-#include <tbb/parallel_sort.h>
 
 #include <algorithm>
 #include <array>
+#include <bit>
 
 namespace leafhull {
 namespace {
 
-enum class Side { outside, on, inside };
+namespace util = openvdb::util;
+using openvdb::MaskTree;
+using MaskAccessor = openvdb::tree::ValueAccessor<const MaskTree>;
 
-using Accessor = openvdb::FloatGrid::ConstAccessor;
-using Corners = std::array<float, 8>;
-
-/// The corner samples of a cell; bit 2 of the index is x, bit 1 y, bit 0 z.
-Corners corners_of(const Accessor& depth, Coord cell) {
-  Corners corners;
-  for (int i = 0; i < 8; ++i) {
-    corners[i] = depth.getValue(
-        openvdb::Coord(cell.x + (i >> 2 & 1), cell.y + (i >> 1 & 1), cell.z + (i & 1)));
+/// The samples of a brick with N >= T.
+util::NodeMask<3> inside_samples(const Field::Brick& negated, float iso) {
+  util::NodeMask<3> inside;
+  const float* values = negated.buffer().data();
+  for (openvdb::Index x = 0; x < kBrickEdge; ++x) {
+    std::uint64_t layer = 0;
+    for (int yz = 0; yz < 64; ++yz) layer |= std::uint64_t{*values++ < iso} << yz;
+    inside.getWord<std::uint64_t>(x) = layer;
   }
-  return corners;
+  return inside;
 }
 
-Side side_of(const Corners& corners) {
-  const auto inside = std::count_if(corners.begin(), corners.end(), [](float d) { return d < 0; });
-  return inside == 0 ? Side::outside : inside == 8 ? Side::inside : Side::on;
+/// The samples with N >= T.
+MaskTree inside_samples(const Field& field) {
+  const openvdb::FloatTree& negated = field.negated().tree();
+  MaskTree inside(negated, false, openvdb::TopologyCopy());
+  std::vector<MaskTree::LeafNodeType*> leaves;
+  inside.getNodes(leaves);
+  tbb::parallel_for(std::size_t{0}, leaves.size(), [&, iso = field.iso_value()](std::size_t i) {
+    const Field::Brick* brick = negated.probeConstLeaf(leaves[i]->origin());
+    leaves[i]->setValueMask(inside_samples(*brick, iso));
+  });
+  for (const Block& block : field.inside()) inside.fill(samples_of(block), true);
+  return inside;
+}
+
+/// A brick's 64 samples at one x; bit 8 y + z.
+std::uint64_t layer(const MaskAccessor& inside, const openvdb::Coord& at) {
+  if (const MaskTree::LeafNodeType* leaf = inside.probeConstLeaf(at)) {
+    return leaf->valueMask().getWord<std::uint64_t>(
+        static_cast<openvdb::Index>(at.x() & (kBrickEdge - 1)));
+  }
+  return inside.isValueOn(at) ? ~std::uint64_t{0} : 0;
+}
+
+/// The squares between the samples of a layer and their neighbours in y and z, at the bits of their
+/// lowest corners.
+struct Squares {
+  std::uint64_t all, some;  ///< corners inside
+};
+
+Squares squares(const MaskAccessor& inside, const openvdb::Coord& at) {
+  const auto next_y = [](std::uint64_t here, std::uint64_t above) {
+    return here >> 8 | above << 56;
+  };
+  const auto next_z = [](std::uint64_t here, std::uint64_t above) {
+    return (here >> 1 & 0x7f7f7f7f7f7f7f7f) | (above << 7 & 0x8080808080808080);
+  };
+  const std::uint64_t low = layer(inside, at), y_low = layer(inside, at.offsetBy(0, 8, 0));
+  const std::uint64_t z = next_z(low, layer(inside, at.offsetBy(0, 0, 8)));
+  const std::uint64_t y_z = next_z(y_low, layer(inside, at.offsetBy(0, 8, 8)));
+  const std::uint64_t y = next_y(low, y_low), yz = next_y(z, y_z);
+  return {low & z & y & yz, low | z | y | yz};
 }
 
 struct VoxelCount {
   std::uint64_t inside = 0, on = 0;
-  void add(Side side) {
-    inside += side == Side::inside;
-    on += side == Side::on;
+  friend VoxelCount operator+(VoxelCount a, VoxelCount b) {
+    return {a.inside + b.inside, a.on + b.on};
   }
 };
 
-VoxelCount count_brick(const Accessor& depth, Coord origin) {
+VoxelCount count_brick(const MaskAccessor& inside, const openvdb::Coord& origin) {
   VoxelCount count;
-  for (int x = 0; x < kBrickEdge; ++x) {
-    for (int y = 0; y < kBrickEdge; ++y) {
-      for (int z = 0; z < kBrickEdge; ++z) {
-        count.add(side_of(corners_of(depth, origin + Coord{x, y, z})));
-      }
-    }
+  Squares low = squares(inside, origin);
+  for (int x = 1; x <= kBrickEdge; ++x) {
+    const Squares high = squares(inside, origin.offsetBy(x, 0, 0));
+    const std::uint64_t all = low.all & high.all, some = low.some | high.some;
+    count = count + VoxelCount{static_cast<std::uint64_t>(std::popcount(all)),
+                               static_cast<std::uint64_t>(std::popcount(some & ~all))};
+    low = high;
   }
   return count;
 }
 
 /// A cell with a corner in an evaluated brick has its lowest corner there or in a neighbour, which,
 /// if it was not evaluated, is proven to be on one side together with the cell.
-VoxelCount count_voxels(const Field& field, const openvdb::FloatGrid& depth) {
+VoxelCount count_voxels(const Field& field) {
+  const MaskTree inside = inside_samples(field);
   VoxelCount count = tbb::parallel_reduce(
-      tbb::blocked_range<std::size_t>(0, field.origins.size()), VoxelCount{},
+      tbb::blocked_range<std::size_t>(0, field.bricks().size()), VoxelCount{},
       [&](const tbb::blocked_range<std::size_t>& bricks, VoxelCount sum) {
-        const Accessor accessor = depth.getConstAccessor();
+        const MaskAccessor accessor(inside);
         for (std::size_t b = bricks.begin(); b < bricks.end(); ++b) {
-          const VoxelCount one = count_brick(accessor, field.origins[b]);
-          sum = {sum.inside + one.inside, sum.on + one.on};
+          sum = sum + count_brick(accessor, field.bricks()[b]->origin());
         }
         return sum;
       },
-      [](VoxelCount a, VoxelCount b) {
-        return VoxelCount{a.inside + b.inside, a.on + b.on};
-      });
-  for (const Block& block : field.inside) {
+      std::plus<>());
+  for (const Block& block : field.inside()) {
     const auto edge = static_cast<std::uint64_t>(block.edge);
     count.inside += edge * edge * edge;
   }
   return count;
 }
 
-/// T - N at a point of a cell, trilinear.
+/// -N at the corners of a cell; bit 2 of the index is x, bit 1 y, bit 0 z.
+using Corners = std::array<float, 8>;
+
+Corners corners_of(const openvdb::FloatGrid::ConstAccessor& negated, Coord cell) {
+  Corners corners;
+  for (int i = 0; i < 8; ++i) {
+    corners[static_cast<std::size_t>(i)] = negated.getValue(
+        openvdb::Coord(cell.x + (i >> 2 & 1), cell.y + (i >> 1 & 1), cell.z + (i & 1)));
+  }
+  return corners;
+}
+
+/// -N at a point of a cell, trilinear.
 double interpolate(const Corners& corners, Vec3d at) {
   double sum = 0;
   for (int i = 0; i < 8; ++i) {
     const double wx = i >> 2 & 1 ? at.x : 1 - at.x;
     const double wy = i >> 1 & 1 ? at.y : 1 - at.y;
     const double wz = i & 1 ? at.z : 1 - at.z;
-    sum += wx * wy * wz * static_cast<double>(corners[i]);
+    sum += wx * wy * wz * static_cast<double>(corners[static_cast<std::size_t>(i)]);
   }
   return sum;
 }
 
+/// Where leaf vertices are.
+struct Placed {
+  MaskTree cells;              ///< of the shape that hold one
+  std::uint64_t off_site = 0;  ///< vertices
+};
+
+void place(std::span<const Vec3d> leaf_vertices, const Field& field, Placed& placed) {
+  const openvdb::FloatGrid::ConstAccessor negated = field.negated().getConstAccessor();
+  openvdb::tree::ValueAccessor<MaskTree> cells(placed.cells);
+  const float iso = field.iso_value();
+  for (const Vec3d p : leaf_vertices) {
+    const Coord cell = cell_of(p);
+    const Corners corners = corners_of(negated, cell);
+    const auto inside =
+        std::count_if(corners.begin(), corners.end(), [&](float n) { return n < iso; });
+    if (inside > 0) cells.setValueOn(openvdb::Coord(cell.x, cell.y, cell.z));
+    const bool on = 0 < inside && inside < 8;
+    placed.off_site +=
+        inside == 0 || (on && interpolate(corners, p - to_vec3d(cell)) > -field.threshold());
+  }
+}
+
+Placed place(std::span<const Vec3d> leaf_vertices, const Field& field) {
+  tbb::enumerable_thread_specific<Placed> parts;
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, leaf_vertices.size(), 1024),
+                    [&](const tbb::blocked_range<std::size_t>& r) {
+                      place(leaf_vertices.subspan(r.begin(), r.size()), field, parts.local());
+                    });
+  Placed all;
+  for (const Placed& part : parts) {
+    all.cells.topologyUnion(part.cells);
+    all.off_site += part.off_site;
+  }
+  return all;
+}
+
 }  // namespace
 
-Metrics measure(const Field& field, const openvdb::FloatGrid& depth,
-                std::span<const Vec3d> leaf_vertices) {
-  const VoxelCount voxels = count_voxels(field, depth);
+Metrics measure(const Field& field, std::span<const Vec3d> leaf_vertices) {
+  const VoxelCount voxels = count_voxels(field);
+  const Placed placed = place(leaf_vertices, field);
   Metrics metrics;
   metrics.inside_voxels = voxels.inside;
   metrics.on_voxels = voxels.on;
-
-  const Accessor accessor = depth.getConstAccessor();
-  std::vector<Coord> occupied;  // cells of the shape that hold a leaf vertex
-  for (const Vec3d p : leaf_vertices) {
-    const Coord cell = cell_of(p);
-    const Corners corners = corners_of(accessor, cell);
-    const Side side = side_of(corners);
-    if (side != Side::outside) occupied.push_back(cell);
-    metrics.off_site_sampled +=
-        side == Side::outside || (side == Side::on && interpolate(corners, p - to_vec3d(cell)) > 0);
-  }
-  tbb::parallel_sort(occupied);
-  const auto end = std::unique(occupied.begin(), occupied.end());
-  metrics.dilated_voxels = metrics.inside_voxels + metrics.on_voxels -
-                           static_cast<std::uint64_t>(end - occupied.begin());
+  metrics.dilated_voxels = voxels.inside + voxels.on - placed.cells.activeVoxelCount();
+  metrics.off_site_sampled = placed.off_site;
   return metrics;
 }
 

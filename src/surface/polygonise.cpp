@@ -2,36 +2,50 @@
 #include "surface/polygonise.h"
 
 #include <openvdb/tools/VolumeToMesh.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
 
 namespace leafhull {
+namespace {
 
-Polygons polygonise(const openvdb::FloatGrid& depth, double adaptivity) {
-  openvdb::tools::VolumeToMesh mesher(0.0, adaptivity);
-  mesher(depth);
+using openvdb::tools::PolygonPool;
+using Face = std::array<std::uint32_t, 4>;
+
+void copy_faces(const PolygonPool& pool, Face* to) {
+  for (std::size_t q = 0; q < pool.numQuads(); ++q) {
+    const openvdb::Vec4I& v = pool.quad(q);
+    *to++ = {v[0], v[1], v[2], v[3]};
+  }
+  for (std::size_t t = 0; t < pool.numTriangles(); ++t) {
+    const openvdb::Vec3I& v = pool.triangle(t);
+    *to++ = {v[0], v[1], v[2], v[2]};
+  }
+}
+
+}  // namespace
+
+Polygons polygonise(const Field& field, double adaptivity) {
+  openvdb::tools::VolumeToMesh mesher(static_cast<double>(field.iso_value()), adaptivity);
+  mesher(field.negated());
 
   Polygons polygons;
-  polygons.points.reserve(mesher.pointListSize());
-  for (std::size_t i = 0; i < mesher.pointListSize(); ++i) {
+  polygons.points.resize(mesher.pointListSize());
+  tbb::parallel_for(std::size_t{0}, polygons.points.size(), [&](std::size_t i) {
     const openvdb::Vec3s& p = mesher.pointList()[i];
-    polygons.points.emplace_back(p.x(), p.y(), p.z());
-  }
-  std::size_t faces = 0;
+    polygons.points[i] = {p.x(), p.y(), p.z()};
+  });
+  mesher.pointList().reset();
+
+  std::vector<std::size_t> first{0};  // face of each pool
   for (std::size_t i = 0; i < mesher.polygonPoolListSize(); ++i) {
-    const openvdb::tools::PolygonPool& pool = mesher.polygonPoolList()[i];
-    faces += pool.numQuads() + pool.numTriangles();
+    const PolygonPool& pool = mesher.polygonPoolList()[i];
+    first.push_back(first.back() + pool.numQuads() + pool.numTriangles());
   }
-  polygons.faces.reserve(faces);
-  for (std::size_t i = 0; i < mesher.polygonPoolListSize(); ++i) {
-    const openvdb::tools::PolygonPool& pool = mesher.polygonPoolList()[i];
-    for (std::size_t q = 0; q < pool.numQuads(); ++q) {
-      const openvdb::Vec4I& v = pool.quad(q);
-      polygons.faces.push_back({v[0], v[1], v[2], v[3]});
-    }
-    for (std::size_t t = 0; t < pool.numTriangles(); ++t) {
-      const openvdb::Vec3I& v = pool.triangle(t);
-      polygons.faces.push_back({v[0], v[1], v[2], v[2]});
-    }
-  }
+  polygons.faces.resize(first.back());
+  tbb::parallel_for(std::size_t{0}, mesher.polygonPoolListSize(), [&](std::size_t i) {
+    copy_faces(mesher.polygonPoolList()[i], polygons.faces.data() + first[i]);
+  });
   return polygons;
 }
 
@@ -39,19 +53,14 @@ std::vector<std::array<std::uint32_t, 3>> triangulate(const Polygons& polygons) 
   const auto distance = [&](std::uint32_t a, std::uint32_t b) {
     return length(polygons.points[a] - polygons.points[b]);
   };
-  std::vector<std::array<std::uint32_t, 3>> triangles;
-  triangles.reserve(2 * polygons.faces.size());
-  for (const auto& [a, b, c, d] : polygons.faces) {
-    if (c == d) {
-      triangles.push_back({a, b, c});
-    } else if (distance(a, c) <= distance(b, d)) {
-      triangles.push_back({a, b, c});
-      triangles.push_back({a, c, d});
-    } else {
-      triangles.push_back({a, b, d});
-      triangles.push_back({b, c, d});
-    }
-  }
+  std::vector<std::array<std::uint32_t, 3>> triangles(2 * polygons.faces.size());
+  tbb::parallel_for(std::size_t{0}, polygons.faces.size(), [&](std::size_t f) {
+    const auto [a, b, c, d] = polygons.faces[f];
+    const bool cut_from_a = c == d || distance(a, c) <= distance(b, d);
+    triangles[2 * f] = cut_from_a ? std::array{a, b, c} : std::array{a, b, d};
+    triangles[2 * f + 1] = cut_from_a ? std::array{a, c, d} : std::array{b, c, d};
+  });
+  std::erase_if(triangles, [](const auto& t) { return t[1] == t[2]; });  // of a triangle
   return triangles;
 }
 

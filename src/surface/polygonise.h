@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <openvdb/openvdb.h>
-
 #include <array>
 #include <cstdint>
 #include <vector>
 
+#include "density/field.h"
 #include "leafhull/vec.h"
 
 namespace leafhull {
@@ -18,9 +17,9 @@ struct Polygons {
   std::vector<std::array<std::uint32_t, 4>> faces;
 };
 
-/// The surface where `depth` (negative inside) is zero, by OpenVDB's volume-to-mesh.
-/// `adaptivity` from 0 (regular) to 1 merges cells whose normals agree.
-Polygons polygonise(const openvdb::FloatGrid& depth, double adaptivity);
+/// The surface N = T, by OpenVDB's volume-to-mesh. `adaptivity` from 0 (regular) to 1 merges cells
+/// whose normals agree.
+Polygons polygonise(const Field& field, double adaptivity);
 
 /// Triangles of the faces, each quad cut along its shorter diagonal.
 std::vector<std::array<std::uint32_t, 3>> triangulate(const Polygons& polygons);

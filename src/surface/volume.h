@@ -12,7 +12,4 @@ namespace leafhull {
 /// SPEC: 7.
 openvdb::FloatGrid::Ptr density_grid(const Field& field);
 
-/// T - N in voxels from the field's anchor: negative inside (N >= T), positive outside.
-openvdb::FloatGrid::Ptr depth_grid(const Field& field);
-
 }  // namespace leafhull

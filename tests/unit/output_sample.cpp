@@ -11,7 +11,7 @@ openvdb::FloatGrid::Ptr density_grid(const Field& field) {
   openvdb::FloatGrid::Ptr grid = openvdb::FloatGrid::create(0.0f);
   grid->setName("density");
   grid->setTransform(openvdb::math::Transform::createLinearTransform(0.25));
-  grid->insertMeta("threshold", openvdb::DoubleMetadata(field.threshold));
+  grid->insertMeta("threshold", openvdb::DoubleMetadata(field.threshold()));
   grid->tree().setValue({0, 0, 0}, 0.5f);
   grid->tree().setValue({1, 0, -9}, 1.25f);
   grid->tree().setValue({100, 20, 3}, 3.0f);
@@ -26,9 +26,7 @@ Shape sample_shape() {
   shape.kernels = {{{1, 2, 3}, {0, 0, 1}, {1, 0, 0}, 0.75f, 0.5f, 0.25f},
                    {{-1, 0, 4}, {0, 1, 0}, {0, 0, 1}, 1.5f, 1.0f, 0.8f}};
   shape.isotropic_density = {2.5f, 0.125f};
-  auto field = std::make_shared<Field>();
-  field->threshold = 1.7;
-  shape.field = field;
+  shape.field = std::make_shared<Field>(Lattice{}, 1.7);
 
   Report& report = shape.report;
   report.options = resolve({});

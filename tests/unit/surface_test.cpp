@@ -38,7 +38,7 @@ double volume(const Polygons& polygons) {
 }
 
 Polygons surface_of(const Field& field, double adaptivity = 0) {
-  return polygonise(*depth_grid(field), adaptivity);
+  return polygonise(field, adaptivity);
 }
 
 TEST(Polygonise, OneSampleInsideIsAClosedBoxAroundIt) {
@@ -85,9 +85,9 @@ TEST(Polygonise, AdaptivityMergesFacesAndStaysClosed) {
 TEST(Polygonise, ASampleAtTheThresholdIsInside) {
   const auto step = [](Vec3d p) { return p.x <= 3 ? 1.0 : 0.0; };
   const Field field = field_of(step, 1.0, kLow, kHigh);
-  const auto depth = depth_grid(field);
-  EXPECT_LT(depth->tree().getValue(openvdb::Coord(3, 0, 0)), 0);
-  EXPECT_GT(depth->tree().getValue(openvdb::Coord(4, 0, 0)), 0);
+  const openvdb::FloatTree& negated = field.negated().tree();
+  EXPECT_LT(negated.getValue(openvdb::Coord(3, 0, 0)), field.iso_value());
+  EXPECT_GT(negated.getValue(openvdb::Coord(4, 0, 0)), field.iso_value());
 }
 
 TEST(Triangulate, CutsAlongTheShorterDiagonal) {
@@ -100,13 +100,9 @@ TEST(Triangulate, CutsAlongTheShorterDiagonal) {
 }
 
 TEST(DensityGrid, IsOnTheGlobalLattice) {
-  Field field;
-  field.lattice = {0.25, {320, -640, 32}};
-  field.threshold = 1.5;
-  field.origins = {{8, 0, 0}};
-  field.samples.assign(kBrickSamples, 0.5f);
-  field.samples[64 * 2 + 8 * 3 + 4] = 7;
-  field.inside = {{{16, 0, 0}, 16}};
+  Field field({0.25, {320, -640, 32}}, 1.5);
+  add_brick(field, [](Vec3d p) { return p == Vec3d(10, 3, 4) ? 7 : 0.5; }, {8, 0, 0});
+  field.add_inside(std::vector<Block>{{{16, 0, 0}, 16}});
   const auto grid = density_grid(field);
   EXPECT_EQ(grid->getName(), "density");
   EXPECT_EQ(grid->metaValue<double>("threshold"), 1.5);
@@ -133,7 +129,7 @@ TEST(Metrics, OfASlabByHand) {
   // just on), one a little further out, one outside.
   const std::vector<Vec3d> leaves{
       {0.2, 0.2, 0.2}, {0.7, 0.3, 0.1}, {4.49, 0.5, 0.5}, {4.51, 1.5, 0.5}, {9.5, 0.5, 0.5}};
-  const Metrics m = measure(field, *depth_grid(field), leaves);
+  const Metrics m = measure(field, leaves);
   EXPECT_EQ(m.inside_voxels, 8u * 10 * 12);
   EXPECT_EQ(m.on_voxels, 10u * 12 * 14 - 8 * 10 * 12);
   EXPECT_EQ(m.dilated_voxels, m.inside_voxels + m.on_voxels - 3);
@@ -143,25 +139,23 @@ TEST(Metrics, OfASlabByHand) {
 TEST(Metrics, ProvenBlocksCountLikeEvaluatedOnes) {
   const auto ball = [](Vec3d p) { return 2 - dot(p, p) / (14.2 * 14.2); };
   const Field dense = field_of(ball, 1.0, {-24, -24, -24}, {24, 24, 24});
-  Field sparse = dense;
-  sparse.origins.clear();
-  sparse.samples.clear();
-  for (std::size_t b = 0; b < dense.origins.size(); ++b) {
-    const Coord o = dense.origins[b];
+  Field sparse({}, 1.0);
+  std::vector<Block> inside;
+  for (const Field::Brick* brick : dense.bricks()) {
+    const Coord o{brick->origin().x(), brick->origin().y(), brick->origin().z()};
     const bool middle = std::abs(2 * o.x + 7) < 16 && std::abs(2 * o.y + 7) < 16 &&
                         std::abs(2 * o.z + 7) < 16;  // the eight bricks around the origin, inside
     if (middle) {
-      sparse.inside.push_back({o, kBrickEdge});
+      inside.push_back({o, kBrickEdge});
     } else {
-      sparse.origins.push_back(o);
-      const auto* s = dense.samples.data() + b * kBrickSamples;
-      sparse.samples.insert(sparse.samples.end(), s, s + kBrickSamples);
+      add_brick(sparse, ball, o);
     }
   }
-  ASSERT_EQ(sparse.inside.size(), 8u);
+  ASSERT_EQ(inside.size(), 8u);
+  sparse.add_inside(inside);
   const std::vector<Vec3d> leaves{{1.5, 1.5, 1.5}, {13, 0.5, 0.5}};
-  const Metrics a = measure(dense, *depth_grid(dense), leaves);
-  const Metrics b = measure(sparse, *depth_grid(sparse), leaves);
+  const Metrics a = measure(dense, leaves);
+  const Metrics b = measure(sparse, leaves);
   EXPECT_EQ(a.inside_voxels, b.inside_voxels);
   EXPECT_EQ(a.on_voxels, b.on_voxels);
   EXPECT_EQ(a.dilated_voxels, b.dilated_voxels);

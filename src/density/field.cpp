@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "density/field.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <memory>
+
+namespace leafhull {
+namespace {
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+}  // namespace
+
+void Field::add_bricks(std::span<const Coord> origins, std::span<const float> samples) {
+  static_assert(Brick::SIZE == kBrickSamples);
+  std::vector<std::unique_ptr<Brick>> bricks(origins.size());
+  tbb::parallel_for(std::size_t{0}, bricks.size(), [&](std::size_t b) {
+    const openvdb::Coord origin(origins[b].x, origins[b].y, origins[b].z);
+    bricks[b] = std::make_unique<Brick>(openvdb::PartialCreate(), origin, 0.0f, /*active=*/true);
+    bricks[b]->allocate();
+    const auto values = samples.subspan(b * kBrickSamples, kBrickSamples);
+    std::transform(values.begin(), values.end(), bricks[b]->buffer().data(), std::negate<>());
+  });
+  bricks_.reserve(bricks_.size() + bricks.size());
+  openvdb::FloatGrid::Accessor tree = negated_->getAccessor();
+  for (auto& brick : bricks) {
+    bricks_.push_back(brick.get());
+    tree.addLeaf(brick.release());
+  }
+}
+
+void Field::add_inside(std::span<const Block> blocks) {
+  const float value = -inside_value(threshold_);
+  for (const Block& block : blocks) negated_->tree().fill(samples_of(block), value, false);
+  inside_.insert(inside_.end(), blocks.begin(), blocks.end());
+}
+
+float Field::iso_value() const {
+  auto lowest_inside = static_cast<float>(threshold_);
+  if (static_cast<double>(lowest_inside) < threshold_) {
+    lowest_inside = std::nextafter(lowest_inside, kInfinity);
+  }
+  return std::nextafter(-lowest_inside, kInfinity);
+}
+
+float Field::highest() const {
+  float lowest_negated = 0;
+  for (const Brick* brick : bricks_) {
+    const float* const values = brick->buffer().data();
+    lowest_negated = std::min(lowest_negated, *std::min_element(values, values + Brick::SIZE));
+  }
+  return -lowest_negated;
+}
+
+float inside_value(double threshold) {
+  return std::nextafter(static_cast<float>(threshold), kInfinity);
+}
+
+}  // namespace leafhull
