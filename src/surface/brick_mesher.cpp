@@ -228,7 +228,7 @@ unsigned Mesher::shape_of(unsigned inside, const GridCoord& at, const GridAccess
   for (unsigned i = 0; i < 8; ++i) {
     inside_beyond |= unsigned{negated.getValue(corner_of(beyond, 1, i)) < iso_} << i;
   }
-  return cell::kFaceMetTwice[inside_beyond] == (face ^ 1) ? inside + cell::kJoined : inside;
+  return cell::kFaceMetTwice[inside_beyond] == (face ^ 1) ? inside + cell::kParted : inside;
 }
 
 Cube<float> Mesher::samples_of(const BrickCells& brick) const {

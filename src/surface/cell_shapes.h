@@ -46,9 +46,9 @@ struct Shape {
 };
 
 /// The shape of a cell whose corners inside are the bits of `inside`. On a face with four crossings
-/// the surface cuts off each of the two corners inside; on the face `joined` it joins them and cuts
-/// off each corner outside.
-constexpr Shape shape_of(unsigned inside, unsigned joined) {
+/// the surface cuts off each of the two corners outside; on the face `parted`, each of those
+/// inside.
+constexpr Shape shape_of(unsigned inside, unsigned parted) {
   std::array<unsigned, 12> patch{};  // the lowest edge that an edge is connected to
   for (unsigned e = 0; e < 12; ++e) patch[e] = e;
   const auto connect = [&](unsigned a, unsigned b) {
@@ -58,7 +58,7 @@ constexpr Shape shape_of(unsigned inside, unsigned joined) {
   for (unsigned face = 0; face < 6; ++face) {
     const auto around = corners_around(face);
     const auto cut_off = [&](unsigned i) {
-      return (inside >> around[i % 4] & 1) == (face == joined ? 0 : 1);
+      return (inside >> around[i % 4] & 1) == (face == parted ? 1 : 0);
     };
     const auto edge_after = [&](unsigned i) {
       return edge_between(around[i % 4], around[(i + 1) % 4]);
@@ -109,18 +109,18 @@ inline constexpr auto kFaceMetTwice = [] {
   return faces;
 }();
 
-/// Added to the corners inside: the number of the shape that joins them on kFaceMetTwice.
-inline constexpr unsigned kJoined = 256;
+/// Added to the corners inside: the number of the shape that parts them on kFaceMetTwice.
+inline constexpr unsigned kParted = 256;
 
-/// Two dual vertices on either side of a face with four crossings have two mesh edges between them
-/// where both of their patches meet the face twice. There both cells join the corners inside, which
-/// parts both patches in two. Such a face is the only one of its cells with four crossings, so that
-/// nothing else changes.
+/// Two dual vertices on either side of a face with four crossings would have two mesh edges between
+/// them where both of their patches meet the face twice. There both cells part the corners inside,
+/// and with them both patches. Such a face is the only one of its cells with four crossings, so
+/// that nothing else changes.
 inline constexpr auto kShapes = [] {
-  std::array<Shape, 2 * kJoined> shapes{};
+  std::array<Shape, 2 * kParted> shapes{};
   for (unsigned inside = 0; inside < 256; ++inside) {
     shapes[inside] = shape_of(inside, kNoFace);
-    shapes[inside + kJoined] = shape_of(inside, kFaceMetTwice[inside]);
+    shapes[inside + kParted] = shape_of(inside, kFaceMetTwice[inside]);
   }
   return shapes;
 }();
@@ -131,7 +131,7 @@ static_assert([] {
     for (unsigned face = 0; face < 6; ++face) {
       if (is_ambiguous(inside, face) != (face == kFaceMetTwice[inside])) return false;
     }
-    if (kShapes[inside + kJoined].vertices != kShapes[inside].vertices + 1) return false;
+    if (kShapes[inside + kParted].vertices != kShapes[inside].vertices + 1) return false;
   }
   return true;
 }());
