@@ -38,7 +38,9 @@ double seconds_of_isotropic_field(const LeafSet& leaves, const Report& report, D
     grid.options = report.options;
     const Lattice lattice = set_grid(leaves, grid);
     const std::vector<Kernel> kernels = isotropic_kernels(leaves.vertices, report.radius_max_model);
-    DensityFunction density(device, kernels, lattice, report.options.falloff);
+    const auto hash =
+        std::make_shared<const SpatialHash>(kernels, hash_cells(leaves, report.radius_max_model));
+    DensityFunction density(device, kernels, hash, lattice, report.options.falloff);
     density.sample_band(report.threshold, 1, false, [](double) {});
   });
 }

@@ -6,7 +6,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 
+#include "density/points.h"
+#include "pipeline/grid.h"
 #include "surface/volume.h"
 
 namespace leafhull::bench {
@@ -100,6 +103,20 @@ std::uint64_t pairs_inside(std::span<const Kernel> kernels, std::span<const Leaf
     filter.searchAndApply(counter.point, reach, counter);
   }
   return counter.inside;
+}
+
+std::uint64_t pairs_evaluated(std::span<const Kernel> kernels, const LeafSet& leaves,
+                              double radius_max) {
+  const auto hash = std::make_shared<const SpatialHash>(kernels, hash_cells(leaves, radius_max));
+  const KernelSet set(kernels, hash, leaf_lattice(leaves, radius_max));
+  std::vector<leafhull::Vec3d> points;
+  for (const LeafVertex& leaf : leaves.vertices) {
+    points.push_back(set.lattice().local(leaf.position));
+  }
+  std::uint64_t pairs = 0;
+  find_kernels_near(set, std::span<const leafhull::Vec3d>(points), Within::point,
+                    [&](const PointBatch& batch) { pairs += kChunkPoints * batch.kernels.size(); });
+  return pairs;
 }
 
 }  // namespace leafhull::bench

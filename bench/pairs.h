@@ -15,4 +15,9 @@ std::uint64_t pairs_inside(std::span<const Kernel> kernels, const Field& field);
 /// The same of kernels and leaf vertices.
 std::uint64_t pairs_inside(std::span<const Kernel> kernels, std::span<const LeafVertex> leaves);
 
+/// How many pairs the engine evaluates to sum `kernels` at the leaf vertices. `radius_max`: model
+/// units.
+std::uint64_t pairs_evaluated(std::span<const Kernel> kernels, const LeafSet& leaves,
+                              double radius_max);
+
 }  // namespace leafhull::bench

@@ -20,6 +20,7 @@ enum class Method { isotropic, uncontrolled, controlled };
 enum class RadiusUnit { crown, leaf, model };
 enum class Spread { stddev, variance };
 enum class DensitySource { exact, grid };
+enum class Mesher { vdb, bricks };
 enum class Preset { paper_32, paper_64, paper_128, draft, standard, fine, ultra, film };
 
 /// Every choice of an extraction. What is empty is set by the style or follows from another option:
@@ -52,7 +53,8 @@ struct Options {
   std::optional<double> voxel_size;  ///< model units
   bool dense = false;
   bool snap = true;
-  double adaptivity = 0;
+  Mesher mesher = Mesher::vdb;
+  double adaptivity = 0;  ///< of Mesher::vdb alone
 
   LeafOptions leaf_options() const { return {leaves, ellipse, leaf_scale}; }
 };
@@ -63,6 +65,7 @@ std::span<const std::string_view> names(Method);
 std::span<const std::string_view> names(RadiusUnit);
 std::span<const std::string_view> names(Spread);
 std::span<const std::string_view> names(DensitySource);
+std::span<const std::string_view> names(Mesher);
 std::span<const std::string_view> names(Preset);
 
 template <class Enum>
@@ -85,8 +88,9 @@ struct OptionRow {
       std::variant<bool Options::*, int Options::*, double Options::*,
                    std::optional<int> Options::*, std::optional<double> Options::*,
                    Style Options::*, std::optional<Method> Options::*, RadiusUnit Options::*,
-                   Spread Options::*, DensitySource Options::*, std::optional<Preset> Options::*,
-                   std::vector<std::string> Options::*, std::optional<TextureEllipse> Options::*>;
+                   Spread Options::*, DensitySource Options::*, Mesher Options::*,
+                   std::optional<Preset> Options::*, std::vector<std::string> Options::*,
+                   std::optional<TextureEllipse> Options::*>;
 
   /// As in the flag --name and, with underscores, in the report. What is on by default has the
   /// flag --no-name.

@@ -17,6 +17,7 @@
 #include "pipeline/grid.h"
 #include "pipeline/memory.h"
 #include "pipeline/stopwatch.h"
+#include "surface/brick_mesher.h"
 #include "surface/metrics.h"
 #include "surface/polygonise.h"
 
@@ -126,7 +127,8 @@ Shape extract(const LeafSet& leaves, const Options& asked, Device& device,
 
   // Step 7: the surface.
   watch.start("polygonise");
-  Polygons polygons = polygonise(*field, options.adaptivity);
+  Polygons polygons = options.mesher == Mesher::bricks ? mesh_bricks(*field)
+                                                       : polygonise(*field, options.adaptivity);
   if (polygons.points.empty()) refuse_empty(*field, options, density_there);
 
   watch.start("snap");

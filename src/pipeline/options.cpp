@@ -16,6 +16,7 @@ constexpr std::string_view kMethodNames[] = {"isotropic", "uncontrolled", "contr
 constexpr std::string_view kRadiusUnitNames[] = {"crown", "leaf", "model"};
 constexpr std::string_view kSpreadNames[] = {"stddev", "variance"};
 constexpr std::string_view kDensityNames[] = {"exact", "grid"};
+constexpr std::string_view kMesherNames[] = {"vdb", "bricks"};
 constexpr std::string_view kPresetNames[] = {"paper-32", "paper-64", "paper-128", "draft",
                                              "standard", "fine",     "ultra",     "film"};
 constexpr int kPresetResolutions[] = {32, 64, 128, 64, 128, 256, 512, 1024};
@@ -109,6 +110,11 @@ void check_contradictions(const Options& options) {
     refuse("--preset, --resolution and --voxel-size contradict each other",
            "Give one of the three.");
   }
+  if (options.adaptivity > 0 && options.mesher != Mesher::vdb) {
+    refuse("--adaptivity " + text(options.adaptivity) + " is not for --mesher " +
+               std::string(name(options.mesher)),
+           "Give --mesher vdb or leave out one of the two.");
+  }
   if (options.band_high < options.band_low) {
     refuse(
         "--band-high " + text(options.band_high) + " is below --band-low " + text(options.band_low),
@@ -123,6 +129,7 @@ std::span<const std::string_view> names(Method) { return kMethodNames; }
 std::span<const std::string_view> names(RadiusUnit) { return kRadiusUnitNames; }
 std::span<const std::string_view> names(Spread) { return kSpreadNames; }
 std::span<const std::string_view> names(DensitySource) { return kDensityNames; }
+std::span<const std::string_view> names(Mesher) { return kMesherNames; }
 std::span<const std::string_view> names(Preset) { return kPresetNames; }
 
 int resolution_of(Preset preset) { return kPresetResolutions[static_cast<std::size_t>(preset)]; }

@@ -103,8 +103,9 @@ class Extract(CommandTest):
         self.assert_same(self.extract(ASH, *DRAFT), self.extract(ASH, *DRAFT))
 
     def test_same_bytes_from_one_thread_and_two(self):
-        one = self.extract(ASH, *DRAFT, "--threads", "1")
-        self.assert_same(one, self.extract(ASH, *DRAFT, "--threads", "2"))
+        for mesher in ("vdb", "bricks"):
+            flags = (*DRAFT, "--mesher", mesher, "--threads")
+            self.assert_same(self.extract(ASH, *flags, "1"), self.extract(ASH, *flags, "2"))
 
     def test_dense_is_the_same(self):
         band = self.extract(ASH, *DRAFT)

@@ -43,6 +43,7 @@ class Usage(CommandTest):
         self.refuse(["crown, leaf, model"], "--radius-unit", "mm")
         self.refuse(["stddev, variance"], "--spread", "sigma")
         self.refuse(["exact, grid"], "--density", "fast")
+        self.refuse(["vdb, bricks"], "--mesher", "cubes")
         self.refuse(["paper-32", "film"], "--preset", "huge")
         self.refuse(["vector, work-item"], "--variant", "scalar")
 
@@ -57,6 +58,7 @@ class Usage(CommandTest):
         self.refuse(["contradict"], "--threshold", "40%", "--coverage", "0.9")
         self.refuse(["--threshold", "more than once"], "--threshold", "2", "--threshold", "40%")
         self.refuse(["--band-high 1", "--band-low 2"], "--band-low", "2", "--band-high", "1")
+        self.refuse(["--adaptivity 0.5", "vdb"], "--mesher", "bricks", "--adaptivity", "0.5")
         self.refuse(["--quiet", "--verbose"], "-q", "-v")
 
     def test_not_numbers(self):

@@ -24,6 +24,7 @@ CASES = {
     "variance": ["--spread", "variance", *DRAFT],
     "density grid": ["--density", "grid", *DRAFT],
     "dense": ["--dense", *DRAFT],
+    "bricks": ["--mesher", "bricks", *DRAFT],
 }
 
 

@@ -180,6 +180,14 @@ TEST(Contradictions, TwoResolutions) {
   expect_words(refusal(both), {"--resolution", "--voxel-size"});
 }
 
+TEST(Contradictions, AdaptivityIsOpenVdbs) {
+  Options options;
+  options.mesher = Mesher::bricks;
+  EXPECT_NO_THROW(resolve(options));
+  options.adaptivity = 0.5;
+  expect_words(refusal(options), {"--adaptivity 0.5", "--mesher bricks", "--mesher vdb"});
+}
+
 TEST(Contradictions, BandUpsideDown) {
   Options options;
   options.band_low = 1;

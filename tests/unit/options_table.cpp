@@ -24,7 +24,7 @@ TEST(OptionTable, HasEveryOptionOnce) {
       "threshold", "coverage",      "radius-max", "radius-unit", "threshold-percent",
       "flatness",  "falloff",       "spread",     "density",     "band-low",
       "band-high", "min-component", "preset",     "resolution",  "voxel-size",
-      "dense",     "snap",          "adaptivity"};
+      "dense",     "snap",          "mesher",     "adaptivity"};
   std::set<std::string_view> found;
   for (const OptionRow& row : option_table()) {
     EXPECT_TRUE(found.insert(row.name).second) << row.name << " stands twice";
@@ -88,6 +88,7 @@ TEST(Names, FollowTheEnumerations) {
   EXPECT_EQ(name(Method::uncontrolled), "uncontrolled");
   EXPECT_EQ(name(RadiusUnit::model), "model");
   EXPECT_EQ(name(Spread::variance), "variance");
+  EXPECT_EQ(name(Mesher::bricks), "bricks");
   EXPECT_EQ(name(DensitySource::grid), "grid");
   EXPECT_EQ(name(Preset::paper_128), "paper-128");
   EXPECT_EQ(name(Preset::film), "film");

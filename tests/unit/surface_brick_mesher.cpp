@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <set>
+#include <unordered_map>
+
+#include "surface/brick_mesher.h"
+#include "surface/cell_shapes.h"
+#include "unit/surface_test_fields.h"
+
+namespace leafhull {
+namespace {
+
+constexpr Coord kLow{-16, -16, -16}, kHigh{16, 16, 16};
+
+/// Whether the faces around every vertex form one closed fan: each corner of a face leads on from
+/// one neighbour of the vertex to the next, and the way from any of them passes all.
+bool is_manifold(const Polygons& polygons) {
+  std::vector<std::unordered_map<std::uint32_t, std::uint32_t>> fans(polygons.points.size());
+  for (const auto& face : polygons.faces) {
+    for (std::size_t i = 0; i < 4; ++i) {
+      const auto [from, at, to] = std::array{face[i], face[(i + 1) % 4], face[(i + 2) % 4]};
+      if (!fans[at].emplace(to, from).second) return false;  // an edge twice in one direction
+    }
+  }
+  return std::all_of(fans.begin(), fans.end(), [](const auto& fan) {
+    if (fan.empty()) return false;
+    std::size_t passed = 0;
+    auto corner = fan.begin();
+    do {
+      corner = fan.find(corner->second);
+      if (corner == fan.end()) return false;  // an edge with a face on one side
+    } while (++passed < fan.size() && corner != fan.begin());
+    return passed == fan.size();
+  });
+}
+
+/// V - E + F; a quad has two edges of its own.
+std::ptrdiff_t euler_characteristic(const Polygons& polygons) {
+  return static_cast<std::ptrdiff_t>(polygons.points.size()) -
+         static_cast<std::ptrdiff_t>(polygons.faces.size());
+}
+
+double volume(const Polygons& polygons) {
+  double sum = 0;
+  for (const auto& [a, b, c] : triangulate(polygons)) {
+    sum +=
+        dot(Vec3d(polygons.points[a]), cross(Vec3d(polygons.points[b]), Vec3d(polygons.points[c])));
+  }
+  return sum / 6;
+}
+
+/// The corners of a cell that are inside.
+unsigned inside_of(const Field& field, Coord at) {
+  unsigned inside = 0;
+  for (int i = 0; i < 8; ++i) {
+    const openvdb::Coord corner(at.x + (i >> 2 & 1), at.y + (i >> 1 & 1), at.z + (i & 1));
+    inside |= unsigned{field.negated().tree().getValue(corner) < field.iso_value()} << i;
+  }
+  return inside;
+}
+
+void expect_good(const Polygons& polygons, const Field& field) {
+  EXPECT_TRUE(is_manifold(polygons));
+  EXPECT_GT(volume(polygons), 0) << "faces look inward";
+  for (const Vec3f p : polygons.points) {
+    const unsigned inside = inside_of(field, cell_of(Vec3d(p)));
+    ASSERT_TRUE(inside != 0 && inside != 255) << "a vertex in a cell without a surface";
+  }
+}
+
+/// Random samples with about `share` of them inside, but for the outermost ones, outside.
+Field noise(unsigned seed, double share) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> unit(0, 1);
+  return field_of(
+      [&](Vec3d p) {
+        const double n = unit(random);
+        const bool outermost = std::min({p.x, p.y, p.z}) == -16 || std::max({p.x, p.y, p.z}) == 15;
+        return outermost ? 0 : n;
+      },
+      1 - share, kLow, kHigh);
+}
+
+/// A block of samples inside, -5 to 5, but for those of `out`; or only those of `out`.
+Field block(std::vector<Vec3d> out, bool inverted = false) {
+  return field_of(
+      [=](Vec3d p) {
+        const bool in_block = std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)}) <= 5;
+        const bool found = std::find(out.begin(), out.end(), p) != out.end();
+        return (inverted ? found : in_block && !found) ? 2.0 : 0.0;
+      },
+      1.0, kLow, kHigh);
+}
+
+TEST(BrickMesher, OneSampleInsideIsABoxOfTheMeansOfItsCrossings) {
+  const Field field = block({{0, 0, 0}}, true);  // crossed halfway: vertices at (1, 1, 1) / 6
+  const Polygons polygons = mesh_bricks(field);
+  EXPECT_EQ(polygons.points.size(), 8u);
+  EXPECT_EQ(polygons.faces.size(), 6u);
+  expect_good(polygons, field);
+  for (const Vec3f p : polygons.points) {
+    EXPECT_NEAR(std::fabs(p.x), 1 / 6.0, 1e-6);
+    EXPECT_NEAR(std::fabs(p.y), 1 / 6.0, 1e-6);
+    EXPECT_NEAR(std::fabs(p.z), 1 / 6.0, 1e-6);
+  }
+}
+
+TEST(BrickMesher, ASphereIsRound) {
+  const double radius = 12.3;
+  const auto ball = [&](Vec3d p) { return 2 - dot(p, p) / (radius * radius); };
+  const Field field = field_of(ball, 1.0, kLow, kHigh);
+  const Polygons polygons = mesh_bricks(field);
+  expect_good(polygons, field);
+  EXPECT_EQ(euler_characteristic(polygons), 2);
+  EXPECT_NEAR(volume(polygons) / (4.0 / 3 * std::numbers::pi * std::pow(radius, 3)), 1, 0.01);
+}
+
+TEST(BrickMesher, ATorusHasAHole) {
+  const double major = 8.7, minor = 5.9;
+  const auto torus = [&](Vec3d p) {
+    const double ring = std::hypot(p.x, p.y) - major;
+    return 2 - (ring * ring + p.z * p.z) / (minor * minor);
+  };
+  const Field field = field_of(torus, 1.0, kLow, kHigh);
+  const Polygons polygons = mesh_bricks(field);
+  expect_good(polygons, field);
+  EXPECT_EQ(euler_characteristic(polygons), 0);
+  const double exact = 2 * std::numbers::pi * std::numbers::pi * major * minor * minor;
+  EXPECT_NEAR(volume(polygons) / exact, 1, 0.02);
+}
+
+TEST(BrickMesher, TwoBlobsThatTouchAndTwoThatDoNot) {
+  const auto blobs = [](double gap) {
+    return field_of(
+        [=](Vec3d p) {
+          const Vec3d d(6 + gap, 0.3, 0.2), a = p - d, b = p + d;
+          return 2 - std::min(dot(a, a), dot(b, b)) / 36;
+        },
+        1.0, kLow, kHigh);
+  };
+  for (const auto& [gap, characteristic] : {std::pair{-0.6, 2}, {0.6, 4}}) {
+    const Field field = blobs(gap);
+    const Polygons polygons = mesh_bricks(field);
+    expect_good(polygons, field);
+    EXPECT_EQ(euler_characteristic(polygons), characteristic);
+  }
+}
+
+TEST(BrickMesher, SamplesAtTheThresholdAreInside) {
+  const Field field = field_of(
+      [](Vec3d p) {
+        return std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)}) <= 3 ? 1.0 : 0.0;
+      },
+      1.0, kLow, kHigh);
+  const Polygons polygons = mesh_bricks(field);
+  expect_good(polygons, field);  // vertices at samples, yet each in its own cell
+  EXPECT_EQ(polygons.faces.size(), 6u * 7 * 7);
+  EXPECT_NEAR(volume(polygons), 6 * 6 * 6, 1e-3);
+}
+
+TEST(BrickMesher, PairsAcrossTheDiagonalOfAFaceAreTwo) {
+  // Of samples inside: the patches of both cells beside the face go around the pair, which would
+  // put two mesh edges between the same two vertices; the surface must part the pair instead. Of
+  // samples outside: always parted. In a brick and across a face and an edge of it.
+  for (const Vec3d a : {Vec3d(2, 2, 2), Vec3d(0, 2, 2), Vec3d(-1, -1, 2), Vec3d(-1, 2, 0)}) {
+    for (const Vec3d step : {Vec3d(0, 1, 1), Vec3d(1, 0, 1), Vec3d(1, 1, 0), Vec3d(-1, 1, 0)}) {
+      const Field pair = block({a, a + step}, true), hollows = block({a, a + step});
+      expect_good(mesh_bricks(pair), pair);
+      EXPECT_EQ(euler_characteristic(mesh_bricks(pair)), 4);
+      expect_good(mesh_bricks(hollows), hollows);
+      EXPECT_EQ(euler_characteristic(mesh_bricks(hollows)), 6) << "the block and two hollows";
+    }
+  }
+}
+
+TEST(BrickMesher, NoiseIsManifold) {
+  std::set<unsigned> cases;
+  int parted = 0;  // pairs of cells
+  for (unsigned seed = 0; seed < 8; ++seed) {
+    const Field field = noise(seed, 0.2 + 0.1 * seed);
+    expect_good(mesh_bricks(field), field);
+    for (int x = -16; x < 15; ++x) {
+      for (int y = -16; y < 15; ++y) {
+        for (int z = -16; z < 15; ++z) {
+          const unsigned inside = inside_of(field, {x, y, z});
+          cases.insert(inside);
+          if (cell::kFaceMetTwice[inside] != 5) continue;  // the upper one along z
+          parted += cell::kFaceMetTwice[inside_of(field, {x, y, z + 1})] == 4;
+        }
+      }
+    }
+  }
+  EXPECT_EQ(cases.size(), 256u);
+  EXPECT_GT(parted, 100);
+}
+
+TEST(BrickMesher, ProvenBlocksStandForEvaluatedOnes) {
+  const auto ball = [](Vec3d p) { return 2 - dot(p, p) / (16.2 * 16.2); };
+  const Field dense = field_of(ball, 1.0, {-24, -24, -24}, {24, 24, 24});
+  Field sparse({}, 1.0);
+  std::vector<Block> inside;
+  for (const Field::Brick* brick : dense.bricks()) {
+    const Coord o{brick->origin().x(), brick->origin().y(), brick->origin().z()};
+    const Vec3d middle = to_vec3d(o) + Vec3d(4, 4, 4);
+    if (length(middle) < 8) {  // the eight bricks around the origin
+      inside.push_back({o, kBrickEdge});
+    } else {
+      add_brick(sparse, ball, o);
+    }
+  }
+  ASSERT_EQ(inside.size(), 8u);
+  sparse.add_inside(inside);
+  const Polygons a = mesh_bricks(dense), b = mesh_bricks(sparse);
+  EXPECT_EQ(a.points, b.points);
+  EXPECT_EQ(a.faces, b.faces);
+}
+
+TEST(BrickMesher, NeitherThreadsNorTheOrderOfBricksMatter) {
+  const Field field = noise(3, 0.5);
+  const Polygons expected = mesh_bricks(field);
+
+  std::vector<const Field::Brick*> bricks(field.bricks().begin(), field.bricks().end());
+  std::shuffle(bricks.begin(), bricks.end(), std::mt19937(1));
+  Field shuffled({}, field.threshold());
+  for (const Field::Brick* brick : bricks) {
+    const auto negated = [&](Vec3d p) {
+      return -brick->getValue(openvdb::Coord::floor(openvdb::Vec3d(p.x, p.y, p.z)));
+    };
+    add_brick(shuffled, negated, {brick->origin().x(), brick->origin().y(), brick->origin().z()});
+  }
+  const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
+  const Polygons other = mesh_bricks(shuffled);
+  EXPECT_EQ(other.points, expected.points);
+  EXPECT_EQ(other.faces, expected.faces);
+}
+
+TEST(BrickMesher, NothingInsideIsNoSurface) {
+  const Field field = field_of([](Vec3d) { return 0.5; }, 1.0, kLow, kHigh);
+  EXPECT_TRUE(mesh_bricks(field).points.empty());
+  EXPECT_TRUE(mesh_bricks(Field({}, 1.0)).faces.empty());
+}
+
+}  // namespace
+}  // namespace leafhull
