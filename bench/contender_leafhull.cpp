@@ -64,7 +64,7 @@ Json run(const LeafSet& leaves, const Options& options, Device& device) {
           {"evaluated_pairs", report.counts.evaluated_pairs}};
 }
 
-Contender prepare(const Case& c, Method method, int threads) {
+Contender prepare(const Case& c, Method method, Mesher mesher, int threads) {
   const auto leaves = std::make_shared<const LeafSet>(load_leaves(c.tree));
   std::shared_ptr<Device> device;
   Contender contender{
@@ -73,9 +73,9 @@ Contender prepare(const Case& c, Method method, int threads) {
   device_options.threads = threads;
   contender.setup["open device"] =
       seconds_of([&] { device = std::make_shared<Device>(device_options); });
-  contender.run = [=, limit = limit_threads(threads), options = options_of(c, method)] {
-    return run(*leaves, options, *device);
-  };
+  Options options = options_of(c, method);
+  options.mesher = mesher;
+  contender.run = [=, limit = limit_threads(threads)] { return run(*leaves, options, *device); };
   contender.setup["first run, kernels compiled"] = seconds_of(contender.run);
   return contender;
 }
@@ -87,7 +87,10 @@ int main(int argc, char** argv) {
   CLI::App app("leafhull, warm.");
   auto method = leafhull::Method::controlled;
   leafhull::bench::add_method(app, method);
+  std::string mesher = "vdb";
+  app.add_option("--mesher", mesher)->check(CLI::IsMember({"vdb", "bricks"}));
   return leafhull::bench::serve(app, argc, argv, [&](const auto& c, int threads) {
-    return leafhull::bench::prepare(c, method, threads);
+    return leafhull::bench::prepare(
+        c, method, mesher == "vdb" ? leafhull::Mesher::vdb : leafhull::Mesher::bricks, threads);
   });
 }

@@ -14,6 +14,7 @@ SCRIPTS = ROOT / "bench"
 
 METHODS = ("isotropic", "controlled")
 OURS = tuple(f"leafhull {method}" for method in METHODS)
+BRICKS = "leafhull isotropic, --mesher bricks"
 PUBLISHED = tuple(f"published {method}" for method in METHODS)
 LITERAL = "published controlled, literally"
 SPHERES = "OpenVDB rasterizeSmoothSpheres"
@@ -47,6 +48,7 @@ BLENDER = [
 
 COMMANDS = {
     **{f"leafhull {m}": program("contender_leafhull", "--method", m) for m in METHODS},
+    BRICKS: program("contender_leafhull", "--method", "isotropic", "--mesher", "bricks"),
     **{f"published {m}": program("contender_published", "--method", m) for m in METHODS},
     **{
         threaded(m, count): program("contender_leafhull", "--method", m, "--threads", str(count))
