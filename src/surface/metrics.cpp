@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <memory>
 
 namespace leafhull {
 namespace {
@@ -139,13 +140,13 @@ double interpolate(const Corners& corners, Vec3d at) {
 
 /// Where leaf vertices are.
 struct Placed {
-  MaskTree cells;              ///< of the shape that hold one
-  std::uint64_t off_site = 0;  ///< vertices
+  MaskTree::Ptr cells = std::make_shared<MaskTree>();  ///< of the shape that hold one
+  std::uint64_t off_site = 0;                          ///< vertices
 };
 
 void place(std::span<const Vec3d> leaf_vertices, const Field& field, Placed& placed) {
   const openvdb::FloatGrid::ConstAccessor negated = field.negated().getConstAccessor();
-  openvdb::tree::ValueAccessor<MaskTree> cells(placed.cells);
+  openvdb::tree::ValueAccessor<MaskTree> cells(*placed.cells);
   const float iso = field.iso_value();
   for (const Vec3d p : leaf_vertices) {
     const Coord cell = cell_of(p);
@@ -167,7 +168,7 @@ Placed place(std::span<const Vec3d> leaf_vertices, const Field& field) {
                     });
   Placed all;
   for (const Placed& part : parts) {
-    all.cells.topologyUnion(part.cells);
+    all.cells->topologyUnion(*part.cells);
     all.off_site += part.off_site;
   }
   return all;
@@ -181,7 +182,7 @@ Metrics measure(const Field& field, std::span<const Vec3d> leaf_vertices) {
   Metrics metrics;
   metrics.inside_voxels = voxels.inside;
   metrics.on_voxels = voxels.on;
-  metrics.dilated_voxels = voxels.inside + voxels.on - placed.cells.activeVoxelCount();
+  metrics.dilated_voxels = voxels.inside + voxels.on - placed.cells->activeVoxelCount();
   metrics.off_site_sampled = placed.off_site;
   return metrics;
 }
