@@ -1,45 +1,68 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "density/band.h"
 
-#include "density/batches.h"
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
 
 namespace leafhull {
+namespace {
+
+/// A batch is handed over at some 64 MiB of lists, or at 32 Ki bricks.
+constexpr std::size_t kBatchEntries = std::size_t{1} << 24;
+constexpr std::size_t kBatchBricks = std::size_t{1} << 15;
+
+/// What a root block holds of the band.
+struct Found {
+  BrickList bricks;
+  std::vector<Block> inside;
+};
+
+Found search(Descent& descent, Coord root, const BandOptions& options) {
+  Found found;
+  descent.from(root, [&](const Block& block, std::span<const std::uint32_t> near,
+                         const Descent::Bounds& bounds) {
+    if (near.empty() || bounds.high < options.lowest) return false;
+    if (bounds.low >= options.highest) {
+      found.inside.push_back(block);
+      return false;
+    }
+    if (block.edge == kBrickEdge) found.bricks.add(block.origin, near);
+    return true;
+  });
+  return found;
+}
+
+}  // namespace
 
 std::vector<Block> find_band(const KernelSet& kernels, const BandOptions& options,
                              const BandVisitor& visit) {
   const std::vector<Coord> roots = kernels.root_blocks(options.margin);
+  tbb::enumerable_thread_specific<Descent> descents(
+      [&] { return Descent(kernels, options.falloff, options.margin); });
   std::vector<Block> inside;
-
-  struct Found {
-    BrickList bricks;
-    std::vector<Block> inside;
-  };
-  const auto search = [&](Descent& descent, Coord root, Found& found) {
-    const auto enter = [](const Block&) { return true; };
-    const auto decide = [&](const Block& block, std::span<const std::uint32_t> near,
-                            const Descent::Bounds& bounds) {
-      if (near.empty()) return false;
-      if (bounds.high < options.lowest) return false;
-      if (bounds.low >= options.highest) {
-        found.inside.push_back(block);
-        return false;
-      }
-      if (block.edge == kBrickEdge) found.bricks.add(block.origin, near);
-      return true;
-    };
-    descent.from(root, enter, decide);
-  };
-  const auto flush = [&](Found& found, double done) {
-    if (found.bricks.size() > 0) visit(found.bricks, done);
-    inside.insert(inside.end(), found.inside.begin(), found.inside.end());
-  };
-  const auto join = [](Found& all, const Found& found) {
-    all.bricks.append(found.bricks);
-    all.inside.insert(all.inside.end(), found.inside.begin(), found.inside.end());
-  };
-  in_batches<Found>(
-      roots, [&] { return Descent(kernels, options.falloff, options.margin); }, search, join,
-      flush);
+  BrickList batch;
+  std::size_t group = 4;  // roots searched at once
+  for (std::size_t begin = 0, end = 0; begin < roots.size(); begin = end) {
+    end = std::min(begin + group, roots.size());
+    std::vector<Found> found(end - begin);
+    tbb::parallel_for(begin, end, [&](std::size_t r) {
+      found[r - begin] = search(descents.local(), roots[r], options);
+    });
+    std::size_t longest = 1;
+    for (const Found& one : found) {
+      batch.append(one.bricks);
+      inside.insert(inside.end(), one.inside.begin(), one.inside.end());
+      longest = std::max(longest, one.bricks.kernels.size());
+    }
+    if (batch.kernels.size() >= kBatchEntries || batch.size() >= kBatchBricks) {
+      visit(batch, static_cast<double>(end) / static_cast<double>(roots.size()));
+      batch = {};
+    }
+    group = std::clamp<std::size_t>(kBatchEntries / longest, 1, 4 * group);
+  }
+  if (batch.size() > 0) visit(batch, 1.0);
   return inside;
 }
 

@@ -52,33 +52,31 @@ class Descent {
     double low = 0, high = 0;
   };
 
-  /// From the octants of `root` downwards: calls enter(block), then visit(block, ranks, bounds),
-  /// and goes on to the octants of a block above brick size where both answer true. Octants come in
-  /// lexicographic order.
-  template <class Enter, class Visit>
-  void from(Coord root, Enter&& enter, Visit&& visit) {
+  /// From the octants of `root` downwards: calls visit(block, ranks, bounds), and goes on to the
+  /// octants of a block above brick size where it answers true. Octants come in lexicographic
+  /// order.
+  template <class Visit>
+  void from(Coord root, Visit&& visit) {
     const Vec3d low = to_vec3d(root) - Vec3d(1, 1, 1) * margin_;
     kernels_.gather(low, low + Vec3d(1, 1, 1) * (kRootEdge - 1 + 2 * margin_), near_root_);
-    descend({root, kRootEdge}, near_root_, 0, enter, visit);
+    descend({root, kRootEdge}, near_root_, 0, visit);
   }
 
  private:
   static constexpr int kLevels = 2;  // octants of edge 16 and 8
   static_assert(kRootEdge == kBrickEdge << kLevels);
 
-  template <class Enter, class Visit>
-  void descend(const Block& block, std::span<const std::uint32_t> ranks, int level, Enter& enter,
-               Visit& visit) {
+  template <class Visit>
+  void descend(const Block& block, std::span<const std::uint32_t> ranks, int level, Visit& visit) {
     const int edge = block.edge / 2;
     OctantLists& octants = octants_[level];
     octants.narrow(kernels_.kernels(), ranks, octants_of(block), kernels_.reach(), falloff_);
     for (int i = 0; i < 8; ++i) {
       const Coord corner{(i >> 2 & 1) * edge, (i >> 1 & 1) * edge, (i & 1) * edge};
       const Block octant{block.origin + corner, edge};
-      if (!enter(octant)) continue;
       const Bounds bounds{octants.low(i), octants.high(i)};
       if (visit(octant, octants.list(i), bounds) && edge > kBrickEdge) {
-        descend(octant, octants.list(i), level + 1, enter, visit);
+        descend(octant, octants.list(i), level + 1, visit);
       }
     }
   }
