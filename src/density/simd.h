@@ -5,8 +5,9 @@
 #include <bit>
 #include <cstdint>
 
-/// Before a function: a copy of it for wider vectors, chosen when the program is loaded.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
+/// Before a function: a copy of it for wider vectors, chosen when the program is loaded, which is
+/// before the thread sanitizer is up.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_THREAD__)
 #define FOR_EVERY_VECTOR_WIDTH __attribute__((target_clones("default", "avx2")))
 #else
 #define FOR_EVERY_VECTOR_WIDTH
