@@ -16,6 +16,13 @@ struct LatticeKernel {
 };
 static_assert(sizeof(LatticeKernel) == 48);
 
+// N is summed in floats, here and on the device. Bounds on xi give way by more than the rounding of
+// a position (a share of the box, as thin kernels magnify it, and of how far kernels are) and of
+// xi.
+inline constexpr float kPositionSlack = 1e-5f;
+inline constexpr float kDistanceSlack = 4e-7f;
+inline constexpr float kXiSlack = 1e-4f;
+
 /// U comes from the axes by Gram-Schmidt on their columns, the R of a QR decomposition: unlike a
 /// Cholesky factor of U^T U it keeps its digits where a kernel is thin.
 inline LatticeKernel to_lattice(const Kernel& kernel, const Lattice& lattice) {

@@ -29,11 +29,4 @@ ALWAYS_INLINE Floats absolute(Floats a) {
   return std::bit_cast<Floats>(std::bit_cast<Ints>(a) & 0x7fffffff);
 }
 
-// N is summed in floats, here and on the device. Bounds on xi give way by more than the rounding of
-// a position (a share of the box, as thin kernels magnify it, and of how far kernels are) and of
-// xi.
-inline constexpr float kPositionSlack = 1e-5f;
-inline constexpr float kDistanceSlack = 4e-7f;
-inline constexpr float kXiSlack = 1e-4f;
-
 }  // namespace leafhull
