@@ -68,9 +68,8 @@ void run_suggest(const Arguments& arguments) {
   Console console(arguments.quiet, arguments.verbose);
   const Options options = arguments.options;
   const LeafOptions leaf_options = resolve(options).leaf_options();
-  const std::filesystem::path picture = arguments.picture.empty()
-                                            ? arguments.tree.stem().string() + "-suggest.png"
-                                            : arguments.picture;
+  std::filesystem::path picture = arguments.picture;
+  if (picture.empty()) picture = arguments.tree.stem().string() + "-suggest.png";
   check_output(picture, ".png", arguments.tree);
   catch_signals();
 

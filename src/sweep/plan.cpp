@@ -77,7 +77,8 @@ Json option_values(const SweepPlan& plan) {
   Json values = Json::object();
   std::map<std::string, std::set<Json>> seen;
   for (const Options& options : plan.combinations) {
-    for (const auto& [name, value] : parameters(options).items()) {
+    const Json resolved = parameters(options);
+    for (const auto& [name, value] : resolved.items()) {
       if (seen[name].insert(value).second) values[name].push_back(value);
     }
   }

@@ -134,7 +134,7 @@ Box frame_of(const LeafSet& leaves, const SweepPlan& plan) {
   return {leaves.bounds.low - margin, leaves.bounds.high + margin};
 }
 
-/// Adds the time of drawing a row's picture to its stages.
+/// Adds a stage before the total, and to it.
 void add_stage(std::vector<StageTime>& times, const std::string& stage, double seconds) {
   if (times.empty()) times.push_back({"total", 0});
   times.back().seconds += seconds;
@@ -142,14 +142,12 @@ void add_stage(std::vector<StageTime>& times, const std::string& stage, double s
 }
 
 void add_times(std::vector<StageTime>& sums, const std::vector<StageTime>& times) {
+  if (sums.empty()) sums.push_back({"total", 0});
   for (const StageTime& time : times) {
-    const auto found = std::find_if(sums.begin(), sums.end(),
-                                    [&](const auto& sum) { return sum.stage == time.stage; });
-    if (found != sums.end()) {
-      found->seconds += time.seconds;
-    } else {
-      sums.insert(time.stage == "total" || sums.empty() ? sums.end() : sums.end() - 1, time);
-    }
+    auto sum = std::find_if(sums.begin(), sums.end(),
+                            [&](const auto& other) { return other.stage == time.stage; });
+    if (sum == sums.end()) sum = sums.insert(sums.end() - 1, {time.stage, 0});
+    sum->seconds += time.seconds;
   }
 }
 
