@@ -21,6 +21,7 @@ ROOMS = {
     "text": ((), ()),
     "render": (("text",), ("embree", "stb", "tbb")),
     "chart": (("text",), ()),
+    "sweep": (("chart", "output"), ("json",)),
     "cli": ((), ("cli11", "json")),
     "bench": (
         ("density", "device", "pipeline", "surface"),
