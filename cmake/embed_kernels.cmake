@@ -14,3 +14,15 @@ function(leafhull_embed_kernels target)
     target_sources(${target} PRIVATE ${generated})
   endforeach()
 endfunction()
+
+# leafhull_embed_file(TARGET NAME FILE): compiles a file's bytes into TARGET as `NAME`.
+function(leafhull_embed_file target name file)
+  set(generated ${CMAKE_CURRENT_BINARY_DIR}/${name}.cpp)
+  add_custom_command(
+    OUTPUT ${generated}
+    COMMAND ${CMAKE_COMMAND} -DSOURCE=${file} -DOUTPUT=${generated} -DNAME=${name}
+            -P ${PROJECT_SOURCE_DIR}/cmake/embed_file.cmake
+    DEPENDS ${file} ${PROJECT_SOURCE_DIR}/cmake/embed_file.cmake
+    COMMENT "Embedding ${file}" VERBATIM)
+  target_sources(${target} PRIVATE ${generated})
+endfunction()

@@ -18,6 +18,7 @@ ROOMS = {
     "surface": (("density",), ("openvdb", "tbb")),
     "output": (("density", "surface"), ("tinygltf", "openvdb", "json")),
     "pipeline": (("density", "device", "surface"), ("tbb",)),
+    "page": (("chart", "output"), ("json", "meshoptimizer", "mustache")),
     "cli": ((), ("cli11", "json")),
     "bench": (
         ("density", "device", "pipeline", "surface"),
@@ -35,6 +36,7 @@ LIBRARIES = {
     "gtest": ("gtest/",),
     "json": ("nlohmann/",),
     "meshoptimizer": ("meshoptimizer.h",),
+    "mustache": ("kainjow/",),
     "opencl": ("CL/",),
     "openvdb": ("openvdb/",),
     "stb": ("stb/", "stb_"),
