@@ -18,6 +18,7 @@ ROOMS = {
     "surface": (("density",), ("openvdb", "tbb")),
     "output": (("density", "surface"), ("tinygltf", "openvdb", "json")),
     "pipeline": (("density", "device", "surface"), ("tbb",)),
+    "study": ((), ()),
     "cli": ((), ("cli11", "json")),
     "bench": (
         ("density", "device", "pipeline", "surface"),
