@@ -18,7 +18,8 @@ ROOMS = {
     "surface": (("density",), ("openvdb", "tbb")),
     "output": (("density", "surface"), ("tinygltf", "openvdb", "json")),
     "pipeline": (("density", "device", "surface"), ("tbb",)),
-    "page": (("chart", "output"), ("json", "meshoptimizer", "mustache")),
+    "study": ((), ()),
+    "page": (("chart", "output", "study"), ("json", "meshoptimizer", "mustache")),
     "cli": ((), ("cli11", "json")),
     "bench": (
         ("density", "device", "pipeline", "surface"),

@@ -42,7 +42,7 @@ struct StudyTime {
   double control = 0;   ///< of `proposed`, steps 2 to 5
 };
 
-/// Whether a claim holds; open: there is nothing to compare, or nothing that differs.
+/// Whether a claim holds; open: the figures have nothing to compare.
 enum class Outcome { holds, fails, open };
 
 std::string_view name(Outcome outcome);  ///< "holds", "fails", "open"
@@ -85,6 +85,9 @@ struct Study {
   double seconds = 0;
 };
 
+/// What the paper calls a method: "L&D", "UNCTRLED", "CTRLED".
+std::string_view paper_name(Method method);
+
 /// Every reading: k = 1, 2 by stddev, variance by exact, grid; the project's own first.
 std::array<Reading, 8> readings();
 
@@ -102,10 +105,6 @@ std::vector<Verdict> verdicts(const ReadingStudy& study);
 /// @throws Error as extract does, but for an empty surface, which is a result.
 TreeStudy study_tree(const LeafSet& leaves, const std::string& name, Device& device,
                      const Progress& progress = {});
-
-/// Looks at the folder before any work is done; its parent has to exist.
-/// @throws Error output: it could not be made or written to.
-void check_study_folder(const std::filesystem::path& folder);
 
 /// Writes report.html and study.json into `folder`, which is made where it is missing: both or
 /// none.

@@ -16,16 +16,24 @@ constexpr std::size_t kBatchBricks = std::size_t{1} << 15;
 /// What a root block holds of the band.
 struct Found {
   BrickList bricks;
-  std::vector<Block> inside;
+  std::vector<InsideBlock> inside;
 };
+
+/// How many of the thresholds are at most `n`.
+std::size_t up_to(double n, const std::vector<double>& thresholds) {
+  return static_cast<std::size_t>(std::upper_bound(thresholds.begin(), thresholds.end(), n) -
+                                  thresholds.begin());
+}
 
 Found search(Descent& descent, Coord root, const BandOptions& options) {
   Found found;
   descent.from(root, [&](const Block& block, std::span<const std::uint32_t> near,
                          const Descent::Bounds& bounds) {
-    if (near.empty() || bounds.high < options.lowest) return false;
-    if (bounds.low >= options.highest) {
-      found.inside.push_back(block);
+    if (near.empty()) return false;
+    const std::size_t reached = up_to(bounds.low, options.thresholds);
+    const bool decided = reached == up_to(bounds.high, options.thresholds);
+    if (decided && !options.thresholds.empty()) {
+      if (reached > 0) found.inside.push_back({block, options.thresholds[reached - 1]});
       return false;
     }
     if (block.edge == kBrickEdge) found.bricks.add(block.origin, near);
@@ -36,12 +44,12 @@ Found search(Descent& descent, Coord root, const BandOptions& options) {
 
 }  // namespace
 
-std::vector<Block> find_band(const KernelSet& kernels, const BandOptions& options,
-                             const BandVisitor& visit) {
+std::vector<InsideBlock> find_band(const KernelSet& kernels, const BandOptions& options,
+                                   const BandVisitor& visit) {
   const std::vector<Coord> roots = kernels.root_blocks(options.margin);
   tbb::enumerable_thread_specific<Descent> descents(
       [&] { return Descent(kernels, options.falloff, options.margin); });
-  std::vector<Block> inside;
+  std::vector<InsideBlock> inside;
   BrickList batch;
   std::size_t group = 4;  // roots searched at once
   for (std::size_t begin = 0, end = 0; begin < roots.size(); begin = end) {

@@ -34,19 +34,29 @@ void Field::add_bricks(std::span<const Coord> origins, std::span<const float> sa
   }
 }
 
-void Field::add_inside(std::span<const Block> blocks) {
-  const float value = -inside_value(threshold_);
-  for (const Block& block : blocks) negated_->tree().fill(samples_of(block), value, false);
+void Field::add_inside(std::span<const InsideBlock> blocks) {
+  for (const auto& [block, threshold] : blocks) {
+    negated_->tree().fill(samples_of(block), -inside_value(threshold), false);
+  }
   inside_.insert(inside_.end(), blocks.begin(), blocks.end());
 }
 
-float Field::iso_value() const {
-  auto lowest_inside = static_cast<float>(threshold_);
-  if (static_cast<double>(lowest_inside) < threshold_) {
-    lowest_inside = std::nextafter(lowest_inside, kInfinity);
-  }
-  return std::nextafter(-lowest_inside, kInfinity);
+Field Field::at(double threshold) const {
+  Field field = *this;
+  field.threshold_ = threshold;
+  return field;
 }
+
+std::vector<Block> Field::inside() const {
+  std::vector<Block> blocks;
+  blocks.reserve(inside_.size());
+  for (const auto& [block, threshold] : inside_) {
+    if (threshold >= threshold_) blocks.push_back(block);
+  }
+  return blocks;
+}
+
+float Field::iso_value() const { return std::nextafter(-inside_value(threshold_), kInfinity); }
 
 float Field::highest() const {
   float lowest_negated = 0;
@@ -58,7 +68,8 @@ float Field::highest() const {
 }
 
 float inside_value(double threshold) {
-  return std::nextafter(static_cast<float>(threshold), kInfinity);
+  const auto value = static_cast<float>(threshold);
+  return static_cast<double>(value) < threshold ? std::nextafter(value, kInfinity) : value;
 }
 
 }  // namespace leafhull

@@ -10,8 +10,8 @@
 
 namespace leafhull {
 
-/// The density N on the lattice: samples where the surface may be, whole blocks where it is proven
-/// to be at least the threshold, and nothing where it is proven to be below.
+/// The density N on the lattice: samples where a surface may be, whole blocks where N is proven to
+/// be at least a threshold, and nothing where it is proven to be below all.
 class Field {
  public:
   using Brick = openvdb::FloatTree::LeafNodeType;
@@ -22,7 +22,10 @@ class Field {
   /// Takes evaluated bricks: N, kBrickSamples per origin, z fastest.
   void add_bricks(std::span<const Coord> origins, std::span<const float> samples);
   /// Takes blocks that are proven inside, disjoint from each other and from the bricks.
-  void add_inside(std::span<const Block> blocks);
+  void add_inside(std::span<const InsideBlock> blocks);
+
+  /// The same samples with the surface at another of the thresholds that they were evaluated for.
+  Field at(double threshold) const;
 
   const Lattice& lattice() const { return lattice_; }
   double threshold() const { return threshold_; }  ///< T
@@ -34,7 +37,8 @@ class Field {
   float iso_value() const;
   /// The evaluated bricks, leaf nodes of `negated()`, in the order of their evaluation.
   std::span<const Brick* const> bricks() const { return bricks_; }
-  std::span<const Block> inside() const { return inside_; }
+  /// What is proven inside.
+  std::vector<Block> inside() const;
 
   std::size_t sample_count() const { return bricks_.size() * kBrickSamples; }
   /// The highest N evaluated, at least 0.
@@ -45,10 +49,10 @@ class Field {
   double threshold_;
   openvdb::FloatGrid::Ptr negated_ = openvdb::FloatGrid::create(0.0f);
   std::vector<const Brick*> bricks_;
-  std::vector<Block> inside_;
+  std::vector<InsideBlock> inside_;
 };
 
-/// The value of what is proven inside: just above T.
+/// The lowest value of a sample inside, which stands for what is proven inside.
 float inside_value(double threshold);
 
 /// The samples of a block.

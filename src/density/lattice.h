@@ -28,6 +28,12 @@ struct Block {
   int edge = kBrickEdge;
 };
 
+/// A block that is proven to be inside of N = threshold.
+struct InsideBlock {
+  Block block;
+  double threshold;
+};
+
 /// The global lattice of integer multiples of the voxel size. Stages compute relative to an anchor,
 /// a lattice point near the tree, so that a far tree loses no digits. SPEC: 5.
 struct Lattice {

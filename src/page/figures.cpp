@@ -37,7 +37,8 @@ Chart chart(const ParameterFigures& figures, std::span<const ReadingStudy> readi
 /// A tree's name without what a file's name cannot hold.
 std::string file_stem(std::string name) {
   for (char& character : name) {
-    if (character == '/' || std::iscntrl(static_cast<unsigned char>(character)) != 0) character = '-';
+    if (character == '/' || std::iscntrl(static_cast<unsigned char>(character)) != 0)
+      character = '-';
   }
   return name;
 }
@@ -45,16 +46,15 @@ std::string file_stem(std::string name) {
 }  // namespace
 
 const std::array<ParameterFigures, 3> kParameterFigures{
-    {{11, 12, "T", "", "the threshold", "threshold T", &ReadingStudy::figure11, &StudyRow::threshold,
-      &TreeStudy::figure12},
+    {{11, 12, "T", "", "the threshold", "threshold T", &ReadingStudy::figure11,
+      &StudyRow::threshold, &TreeStudy::figure12},
      {13, 14, "R", "max", "the radius of sparse leaves", "radius R_max (crown units)",
       &ReadingStudy::figure13, &StudyRow::radius_max, &TreeStudy::figure14},
-     {15, 16, "λ", "R", "the flatness", "flatness λ_R", &ReadingStudy::figure15, &StudyRow::flatness,
-      &TreeStudy::figure16}}};
+     {15, 16, "λ", "R", "the flatness", "flatness λ_R", &ReadingStudy::figure15,
+      &StudyRow::flatness, &TreeStudy::figure16}}};
 
 std::string reading_name(const Reading& reading) {
-  const std::string spread =
-      reading.spread == Spread::stddev ? "standard deviation" : "variance";
+  const std::string spread = reading.spread == Spread::stddev ? "standard deviation" : "variance";
   return "k = " + std::to_string(reading.falloff) + ", " + spread + ", " +
          std::string(name(reading.density)) + " density";
 }

@@ -72,7 +72,9 @@ PackedMesh pack_mesh(const Mesh& mesh, const Box& frame) {
 
   std::vector<PackedVertex> vertices;
   vertices.reserve(positions.size());
-  const auto steps = [](double distance) { return static_cast<std::uint16_t>(std::lround(distance)); };
+  const auto steps = [](double distance) {
+    return static_cast<std::uint16_t>(std::lround(distance));
+  };
   for (const Vec3f& position : positions) {
     const Vec3d at = (Vec3d(position) - box.low) * steps_per_unit;
     vertices.push_back({steps(at.x), steps(at.y), steps(at.z)});

@@ -5,8 +5,8 @@
 #include <span>
 
 #include "page/base64.h"
-#include "page/numbers.h"
 #include "page/packed_mesh.h"
+#include "study/numbers.h"
 
 namespace leafhull {
 namespace {
@@ -41,8 +41,8 @@ std::string mesh_text(const PackedMesh& mesh) {
 }
 
 std::string triangles_text(const Mesh& mesh, std::size_t shown) {
-  const std::string all = count_text(mesh.triangles.size()) + " triangles";
-  return shown == mesh.triangles.size() ? all : all + ", simplified to " + count_text(shown) + " here";
+  const std::string all = grouped(mesh.triangles.size()) + " triangles";
+  return shown == mesh.triangles.size() ? all : all + ", simplified to " + grouped(shown) + " here";
 }
 
 }  // namespace
@@ -50,7 +50,8 @@ std::string triangles_text(const Mesh& mesh, std::size_t shown) {
 nlohmann::json shapes_data(const TreeStudy& tree) {
   Json shapes = Json::array();
   for (std::size_t i = 0; i < tree.meshes.size(); ++i) {
-    Json shape = {{"method", paper_name(static_cast<Method>(i))}, {"picture", false}, {"mesh", false}};
+    Json shape = {
+        {"method", paper_name(static_cast<Method>(i))}, {"picture", false}, {"mesh", false}};
     if (i < tree.methods.size()) {
       shape["picture"] = picture_data(tree.methods[i], tree.name + " as a shape");
       shape["lines"] = lines_data(tree.methods[i].lines);

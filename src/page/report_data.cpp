@@ -10,8 +10,8 @@
 
 #include "page/claims_data.h"
 #include "page/figures.h"
-#include "page/numbers.h"
 #include "page/pictures_data.h"
+#include "study/numbers.h"
 
 namespace leafhull {
 namespace {
@@ -21,8 +21,8 @@ using Json = nlohmann::json;
 constexpr std::size_t kIsotropic = static_cast<std::size_t>(Method::isotropic);
 
 std::string duration_text(double seconds) {
-  if (seconds < 100) return fixed_text(seconds, 1) + " s";
-  return fixed_text(seconds / 60, 1) + " min";
+  if (seconds < 100) return fixed(seconds, 1) + " s";
+  return fixed(seconds / 60, 1) + " min";
 }
 
 /// As a shell would take it.
@@ -52,32 +52,35 @@ using Count = std::uint64_t (*)(const StudyRow&);
 std::uint64_t dilated(const StudyRow& row) { return row.metrics.dilated_voxels; }
 std::uint64_t off_site(const StudyRow& row) { return row.off_site(); }
 
-constexpr std::string_view kNoSurface = "no surface";
+constexpr const char* kNoSurface = "no surface";
+constexpr const char* kNone = "–";
 
 template <class Text>
 Json cells(const std::array<StudyRow, 3>& rows, Text text) {
   Json cells = Json::array();
-  for (const StudyRow& row : rows) cells.push_back(row.empty ? kNoSurface : text(row));
+  for (const StudyRow& row : rows) cells.push_back(row.empty ? std::string(kNoSurface) : text(row));
   return cells;
 }
 
 Json counts_row(const std::string& label, const std::array<StudyRow, 3>& rows, Count count) {
   return {{"label", label},
-          {"cells", cells(rows, [&](const StudyRow& row) { return count_text(count(row)); })}};
+          {"cells", cells(rows, [&](const StudyRow& row) { return grouped(count(row)); })}};
 }
 
 Json ratios_row(const std::string& label, const std::array<StudyRow, 3>& rows, Count count) {
   const StudyRow& isotropic = rows[kIsotropic];
-  const auto ratio = [&](const StudyRow& row) {
-    const auto base = isotropic.empty ? 0.0 : static_cast<double>(count(isotropic));
-    return fixed_text(static_cast<double>(count(row)) / base, 2);
+  const auto ratio = [&](const StudyRow& row) -> std::string {
+    if (isotropic.empty || count(isotropic) == 0) return kNone;
+    return fixed(static_cast<double>(count(row)) / static_cast<double>(count(isotropic)), 2);
   };
   return {{"label", label + ", of L&D"}, {"cells", cells(rows, ratio)}, {"derived", true}};
 }
 
 Json shares_row(const std::string& label, const std::array<StudyRow, 3>& rows,
                 std::uint64_t leaf_vertices) {
-  const auto share = [&](const StudyRow& row) { return share_text(off_site(row), leaf_vertices); };
+  const auto share = [&](const StudyRow& row) {
+    return percent(static_cast<double>(off_site(row)) / static_cast<double>(leaf_vertices));
+  };
   return {{"label", label + ", of its leaf vertices"},
           {"cells", cells(rows, share)},
           {"derived", true}};
@@ -87,33 +90,32 @@ Json table1(const TreeStudy& tree, const ReadingStudy& own) {
   const auto& ours = own.table1;
   const auto& theirs = paper_results().table1;
   const std::string paper = "the paper";
-  return {
-      {{"metric", "Dilated voxels"},
-       {"rows",
-        {counts_row(tree.name, ours, dilated), counts_row(paper, theirs, dilated),
-         ratios_row(tree.name, ours, dilated), ratios_row(paper, theirs, dilated)}}},
-      {{"metric", "Off-site vertices"},
-       {"rows",
-        {counts_row(tree.name, ours, off_site), counts_row(paper, theirs, off_site),
-         shares_row(tree.name, ours, tree.leaf_vertices),
-         shares_row(paper, theirs, kPaperLeafVertices), ratios_row(tree.name, ours, off_site),
-         ratios_row(paper, theirs, off_site)}}}};
+  return {{{"metric", "Dilated voxels"},
+           {"rows",
+            {counts_row(tree.name, ours, dilated), counts_row(paper, theirs, dilated),
+             ratios_row(tree.name, ours, dilated), ratios_row(paper, theirs, dilated)}}},
+          {{"metric", "Off-site vertices"},
+           {"rows",
+            {counts_row(tree.name, ours, off_site), counts_row(paper, theirs, off_site),
+             shares_row(tree.name, ours, tree.leaf_vertices),
+             shares_row(paper, theirs, kPaperLeafVertices), ratios_row(tree.name, ours, off_site),
+             ratios_row(paper, theirs, off_site)}}}};
 }
 
 // Table 2
 
 std::string added_text(const StudyTime& time) {
   const double percent = std::round(100 * (time.proposed / time.previous - 1));
-  return (percent >= 0 ? "+" : "") + fixed_text(percent, 0) + "%";
+  return (percent >= 0 ? "+" : "") + fixed(percent, 0) + "%";
 }
 
 void append_seconds(Json& cells, const StudyTime* time) {
   if (time == nullptr || time->empty) {
-    for (int i = 0; i < 3; ++i) cells.push_back("–");
+    for (int i = 0; i < 3; ++i) cells.push_back(kNone);
     return;
   }
-  cells.push_back(fixed_text(time->previous, 3));
-  cells.push_back(fixed_text(time->proposed, 3));
+  cells.push_back(fixed(time->previous, 3));
+  cells.push_back(fixed(time->proposed, 3));
   cells.push_back(added_text(*time));
 }
 
@@ -139,9 +141,9 @@ Json figure_rows(const ParameterFigures& figures, const ReadingStudy& own) {
   Json rows = Json::array();
   for (const StudyRow& row : own.*figures.rows) {
     const auto text = [&](Count count) {
-      return row.empty ? std::string(kNoSurface) : count_text(count(row));
+      return row.empty ? std::string(kNoSurface) : grouped(count(row));
     };
-    rows.push_back({{"value", shortest_text(row.*figures.value)},
+    rows.push_back({{"value", shortest(row.*figures.value)},
                     {"dilated", text(dilated)},
                     {"off_site", text(off_site)}});
   }
@@ -180,8 +182,8 @@ Json tree_data(const TreeStudy& tree, std::size_t index, const TreePlots* plots)
   const int runs = own.table2.empty() ? 0 : own.table2.front().runs;
   return {{"id", "tree-" + std::to_string(index + 1)},
           {"name", tree.name},
-          {"leaves", count_text(tree.leaves)},
-          {"leaf_vertices", count_text(tree.leaf_vertices)},
+          {"leaves", grouped(tree.leaves)},
+          {"leaf_vertices", grouped(tree.leaf_vertices)},
           {"duration", duration_text(tree.seconds)},
           {"shapes", shapes_data(tree)},
           {"table1", table1(tree, own)},
@@ -208,16 +210,15 @@ nlohmann::json report_data(const Study& study, std::span<const TreePlots> plots)
           {"duration", duration_text(study.seconds)},
           {"command", command_text(study.command)},
           {"names", names},
-          {"tree_count", study.trees.size() == 1
-                             ? "one tree"
-                             : std::to_string(study.trees.size()) + " trees"},
+          {"tree_count",
+           study.trees.size() == 1 ? "one tree" : std::to_string(study.trees.size()) + " trees"},
           {"own_reading", reading_name(first.front().reading)},
           {"reading_count", std::to_string(first.size())},
           {"resolution", "64"},
           {"methods",
            {paper_name(Method::isotropic), paper_name(Method::uncontrolled),
             paper_name(Method::controlled)}},
-          {"paper_leaf_vertices", count_text(kPaperLeafVertices)},
+          {"paper_leaf_vertices", grouped(kPaperLeafVertices)},
           {"claims", claims_data(study)},
           {"trees", std::move(trees)}};
 }

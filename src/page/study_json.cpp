@@ -45,22 +45,17 @@ Json list(const Range& values) {
 }
 
 Json to_json_value(const ReadingStudy& reading) {
-  return {{"falloff", reading.reading.falloff},
-          {"spread", name(reading.reading.spread)},
-          {"density", name(reading.reading.density)},
-          {"table1", list(reading.table1)},
-          {"figure11", list(reading.figure11)},
-          {"figure13", list(reading.figure13)},
-          {"figure15", list(reading.figure15)},
-          {"table2", list(reading.table2)},
+  return {{"falloff", reading.reading.falloff},       {"spread", name(reading.reading.spread)},
+          {"density", name(reading.reading.density)}, {"table1", list(reading.table1)},
+          {"figure11", list(reading.figure11)},       {"figure13", list(reading.figure13)},
+          {"figure15", list(reading.figure15)},       {"table2", list(reading.table2)},
           {"verdicts", list(reading.verdicts)}};
 }
 
 Json to_json_value(const TreeStudy& tree) {
-  Json json = {{"name", tree.name},
-               {"leaves", tree.leaves},
-               {"leaf_vertices", tree.leaf_vertices}};
-  json["bounds"] = tree.bounds.empty() ? Json() : list(std::array{tree.bounds.low, tree.bounds.high});
+  Json json = {{"name", tree.name}, {"leaves", tree.leaves}, {"leaf_vertices", tree.leaf_vertices}};
+  json["bounds"] =
+      tree.bounds.empty() ? Json() : list(std::array{tree.bounds.low, tree.bounds.high});
   json["seconds"] = tree.seconds;
   json["readings"] = list(tree.readings);
   return json;

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <cerrno>
 #include <filesystem>
 #include <system_error>
 #include <vector>
 
 #include "leafhull/study.h"
-#include "output/destination.h"
 #include "output/transaction.h"
 #include "output/write_error.h"
 #include "page/figures.h"
@@ -15,17 +13,6 @@
 namespace leafhull {
 
 namespace fs = std::filesystem;
-
-void check_study_folder(const fs::path& folder) {
-  if (fs::is_directory(folder)) {
-    resolve_destination(folder / "report.html");
-    resolve_destination(folder / "study.json");
-  } else if (fs::exists(folder)) {
-    throw write_error(folder, ENOTDIR);
-  } else {
-    resolve_destination(folder);
-  }
-}
 
 void write_study(const Study& study, const fs::path& folder) {
   const std::vector<TreePlots> plots = draw_plots(study);

@@ -58,11 +58,13 @@ std::vector<float> DensityFunction::interpolated_at(std::span<const Vec3d> point
   return density;
 }
 
-DensityFunction::Sampled DensityFunction::sample_band(double threshold, int margin, bool dense,
+DensityFunction::Sampled DensityFunction::sample_band(std::vector<double> thresholds, int margin,
+                                                      bool dense,
                                                       const std::function<void(double)>& advance) {
-  BandOptions options{.falloff = falloff_, .margin = margin};
-  if (!dense) options.lowest = options.highest = threshold;
-  Sampled result{Field(kernels_.lattice(), threshold)};
+  Sampled result{Field(kernels_.lattice(), thresholds.front())};
+  if (dense) thresholds.clear();
+  const BandOptions options{
+      .thresholds = std::move(thresholds), .falloff = falloff_, .margin = margin};
   Field& field = result.field;
   const auto inside = find_band(kernels_, options, [&](const BrickList& bricks, double done) {
     const std::size_t size = bricks.size() * kBrickSamples;

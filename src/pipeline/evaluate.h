@@ -38,9 +38,10 @@ class DensityFunction {
     Field field;
     std::uint64_t pairs = 0;  ///< kernel-sample pairs evaluated
   };
-  /// N where the surface N = threshold may be (`dense`: wherever a support reaches), blocks being
-  /// grown by `margin` voxels before they are decided. `advance` is told the share that is done.
-  Sampled sample_band(double threshold, int margin, bool dense,
+  /// N where a surface N = T may be, for all `thresholds`, ascending (`dense`: wherever a support
+  /// reaches), blocks being grown by `margin` voxels before they are decided. `advance` is told the
+  /// share that is done. The field's own threshold is the lowest.
+  Sampled sample_band(std::vector<double> thresholds, int margin, bool dense,
                       const std::function<void(double)>& advance);
 
   /// Moves points onto N = threshold within their cells, in at most `steps` steps, and returns the

@@ -58,21 +58,31 @@ void fill_missing_normals(Mesh& mesh) {
   }
 }
 
+void take(Polygons polygons, Mesh& mesh) {
+  mesh.triangles = triangulate(polygons);
+  mesh.positions = std::move(polygons.points);
+}
+
 }  // namespace
 
-FinishedMesh finish_mesh(Polygons polygons, DensityFunction& density, const Lattice& lattice,
-                         const Report& report) {
-  FinishedMesh finished;
-  Mesh& mesh = finished.mesh;
+Mesh finish_mesh(Polygons polygons, DensityFunction& density, const Lattice& lattice,
+                 const Report& report) {
+  Mesh mesh;
   const int steps = report.options.snap ? kSnapSteps : 0;
   mesh.normals = density.snap(polygons.points, report.threshold, steps);
-  mesh.triangles = triangulate(polygons);
-  polygons.faces = {};
-  mesh.positions = std::move(polygons.points);
-  finished.components = drop_small_components(mesh, *report.options.min_component);
+  take(std::move(polygons), mesh);
   fill_missing_normals(mesh);
   to_model_units(mesh, lattice);
-  return finished;
+  return mesh;
+}
+
+Mesh lattice_mesh(Polygons polygons, const Lattice& lattice) {
+  Mesh mesh;
+  take(std::move(polygons), mesh);
+  mesh.normals.resize(mesh.positions.size());
+  fill_missing_normals(mesh);
+  to_model_units(mesh, lattice);
+  return mesh;
 }
 
 }  // namespace leafhull

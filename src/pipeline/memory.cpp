@@ -69,10 +69,11 @@ double dense_samples(const Box& bounds, double radius_max, double h) {
 }
 
 /// Samples that would be evaluated on the lattice of `kernels`.
-double evaluated_samples(const KernelSet& kernels, const Report& report) {
+double evaluated_samples(const KernelSet& kernels, const Report& report,
+                         std::span<const double> thresholds) {
   double bricks = 0;
-  BandOptions options{.falloff = report.options.falloff};
-  if (!report.options.dense) options.lowest = options.highest = report.threshold;
+  BandOptions options{.thresholds = {}, .falloff = report.options.falloff};
+  if (!report.options.dense) options.thresholds.assign(thresholds.begin(), thresholds.end());
   find_band(kernels, options,
             [&](const BrickList& list, double) { bricks += static_cast<double>(list.size()); });
   return bricks * kBrickSamples;
@@ -84,34 +85,35 @@ std::uint64_t available_memory() {
   return std::min({meminfo_available(), cgroup_available(), address_space_available()});
 }
 
-void check_memory(std::span<const Kernel> kernels, std::shared_ptr<const SpatialHash> hash,
-                  const Box& bounds, const Report& report, std::uint64_t available) {
-  const auto fits = [&](double samples) {
-    return samples * kBytesPerVoxel <= static_cast<double>(available);
-  };
-  const double dense = dense_samples(bounds, report.radius_max_model, report.voxel_size);
-  if (fits(dense)) return;
-
+FieldMemory::FieldMemory(std::span<const Kernel> kernels, std::shared_ptr<const SpatialHash> hash,
+                         const Box& bounds, const Report& report,
+                         std::span<const double> thresholds, std::uint64_t available)
+    : resolution_(report.resolution),
+      power_(report.options.dense ? kDensePower : kBandPower),
+      needed_(kBytesPerVoxel * dense_samples(bounds, report.radius_max_model, report.voxel_size)),
+      available_(static_cast<double>(available)) {
+  if (fits()) return;
   const double finer = std::max(1.0, report.resolution / kCoarseResolution);
-  const double power = report.options.dense ? kDensePower : kBandPower;
   const KernelSet coarse(kernels, std::move(hash),
                          Lattice::near(bounds.low, report.voxel_size * finer));
-  const double needed = evaluated_samples(coarse, report) * std::pow(finer, power) * kBytesPerVoxel;
-  if (needed <= static_cast<double>(available)) return;
+  needed_ =
+      kBytesPerVoxel * evaluated_samples(coarse, report, thresholds) * std::pow(finer, power_);
+}
 
+void FieldMemory::check() const {
+  if (fits()) return;
   constexpr double kGiB = 1 << 30;
   constexpr double kToSpare = 0.98;  // what is available changes from run to run
   const double largest =
-      kToSpare * report.resolution * std::pow(static_cast<double>(available) / needed, 1 / power);
+      std::floor(kToSpare * resolution_ * std::pow(available_ / needed_, 1 / power_));
   char text[200];
   std::snprintf(text, sizeof text,
-                "a resolution of %.0f voxels needs about %.3g GiB, and %.3g GiB are available",
-                static_cast<double>(report.resolution), needed / kGiB,
-                static_cast<double>(available) / kGiB);
+                "a resolution of %d voxels needs about %.3g GiB, and %.3g GiB are available",
+                resolution_, needed_ / kGiB, available_ / kGiB);
   char remedy[160];
   std::snprintf(remedy, sizeof remedy,
-                "The largest resolution that fits here is about %.0f (--resolution %.0f).",
-                std::floor(largest), std::floor(largest));
+                "The largest resolution that fits here is about %.0f (--resolution %.0f).", largest,
+                largest);
   throw Error(ErrorCode::usage, text, remedy);
 }
 

@@ -15,10 +15,24 @@ namespace leafhull {
 /// limit or its address-space limit, whichever is least.
 std::uint64_t available_memory();
 
-/// Refuses a resolution whose field and mesh would not fit, before they are allocated. What they
-/// need is judged from the bricks that a coarse lattice would evaluate.
-/// @throws Error usage: how much is needed and the largest resolution that fits.
-void check_memory(std::span<const Kernel> kernels, std::shared_ptr<const SpatialHash> hash,
-                  const Box& bounds, const Report& report, std::uint64_t available);
+/// What a field for all `thresholds`, ascending, and its mesh would take, told before they are
+/// allocated: judged from the bricks that a coarse lattice would evaluate.
+class FieldMemory {
+ public:
+  FieldMemory(std::span<const Kernel> kernels, std::shared_ptr<const SpatialHash> hash,
+              const Box& bounds, const Report& report, std::span<const double> thresholds,
+              std::uint64_t available);
+
+  bool fits() const { return needed_ <= available_; }
+
+  /// @throws Error usage where it does not fit: how much is needed and the largest resolution that
+  ///         fits.
+  void check() const;
+
+ private:
+  int resolution_;
+  double power_;               ///< with which the samples grow with the resolution
+  double needed_, available_;  ///< bytes
+};
 
 }  // namespace leafhull

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <string>
 #include <string_view>
@@ -29,13 +30,13 @@ class Stopwatch {
     if (progress_) progress_(stage_, done);
   }
 
-  /// Ends the running stage; the times so far, the total last.
+  /// Ends the running stage; the times since the last call, a stage's together, the total last.
   std::vector<StageTime> finish() {
     stop();
     double total = 0;
     for (const StageTime& s : times_) total += s.seconds;
     times_.push_back({"total", total});
-    return std::move(times_);
+    return std::exchange(times_, {});
   }
 
  private:
@@ -43,7 +44,14 @@ class Stopwatch {
 
   void stop() {
     if (stage_.empty()) return;
-    times_.push_back({stage_, std::chrono::duration<double>(Clock::now() - began_).count()});
+    const double seconds = std::chrono::duration<double>(Clock::now() - began_).count();
+    const auto same = [&](const StageTime& s) { return s.stage == stage_; };
+    const auto row = std::find_if(times_.begin(), times_.end(), same);
+    if (row == times_.end()) {
+      times_.push_back({stage_, seconds});
+    } else {
+      row->seconds += seconds;
+    }
     stage_.clear();
   }
 

@@ -12,16 +12,17 @@
 namespace leafhull {
 namespace {
 
-/// For each vertex the lowest vertex that it is connected to, whatever the order of the triangles:
+/// For each vertex the lowest vertex that it is connected to, whatever the order of the faces:
 /// of two trees that meet, the root of the higher one comes under the other's.
 class Roots {
  public:
-  explicit Roots(const Mesh& mesh) : parent_(mesh.positions.size()) {
+  explicit Roots(const Polygons& polygons) : parent_(polygons.points.size()) {
     std::iota(parent_.begin(), parent_.end(), 0u);
-    tbb::parallel_for(std::size_t{0}, mesh.triangles.size(), [&](std::size_t t) {
-      const auto [a, b, c] = mesh.triangles[t];
+    tbb::parallel_for(std::size_t{0}, polygons.faces.size(), [&](std::size_t f) {
+      const auto [a, b, c, d] = polygons.faces[f];
       unite(a, b);
       unite(b, c);
+      unite(c, d);
     });
     tbb::parallel_for(0u, static_cast<std::uint32_t>(parent_.size()), [&](std::uint32_t v) {
       parent(v).store(find(v), std::memory_order_relaxed);
@@ -53,31 +54,31 @@ class Roots {
 };
 
 /// The volume that each component encloses, times six, at its root vertex.
-std::vector<double> volumes(const Mesh& mesh, const Roots& root) {
-  std::vector<double> part(mesh.triangles.size());
-  tbb::parallel_for(std::size_t{0}, part.size(), [&](std::size_t t) {
-    const auto [a, b, c] = mesh.triangles[t];
-    const Vec3d from(mesh.positions[root[a]]);
-    const auto corner = [&](std::uint32_t v) { return Vec3d(mesh.positions[v]) - from; };
-    part[t] = dot(corner(a), cross(corner(b), corner(c)));
+std::vector<double> volumes(const Polygons& polygons, const Roots& root) {
+  std::vector<double> part(polygons.faces.size());
+  tbb::parallel_for(std::size_t{0}, part.size(), [&](std::size_t f) {
+    const auto [a, b, c, d] = polygons.faces[f];
+    const Vec3d from(polygons.points[root[a]]);
+    const auto corner = [&](std::uint32_t v) { return Vec3d(polygons.points[v]) - from; };
+    part[f] = dot(corner(a), cross(corner(b), corner(c)) + cross(corner(c), corner(d)));
   });
-  std::vector<double> volume(mesh.positions.size(), 0.0);
-  for (std::size_t t = 0; t < part.size(); ++t) volume[root[mesh.triangles[t][0]]] += part[t];
+  std::vector<double> volume(polygons.points.size(), 0.0);
+  for (std::size_t f = 0; f < part.size(); ++f) volume[root[polygons.faces[f][0]]] += part[f];
   for (double& v : volume) v = std::fabs(v);
   return volume;
 }
 
 }  // namespace
 
-ComponentCount drop_small_components(Mesh& mesh, double smallest) {
-  const Roots root(mesh);
-  const std::vector<double> volume = volumes(mesh, root);
+ComponentCount drop_small_components(Polygons& polygons, double smallest) {
+  const Roots root(polygons);
+  const std::vector<double> volume = volumes(polygons, root);
   const double least =
       volume.empty() ? 0 : smallest * *std::max_element(volume.begin(), volume.end());
   const auto stays = [&](std::uint32_t v) { return volume[root[v]] >= least; };
 
   ComponentCount count;
-  const auto vertices = static_cast<std::uint32_t>(mesh.positions.size());
+  const auto vertices = static_cast<std::uint32_t>(polygons.points.size());
   for (std::uint32_t v = 0; v < vertices; ++v) {
     if (root[v] == v) ++(stays(v) ? count.kept : count.dropped);
   }
@@ -88,15 +89,13 @@ ComponentCount drop_small_components(Mesh& mesh, double smallest) {
   for (std::uint32_t v = 0; v < vertices; ++v) {
     if (!stays(v)) continue;
     moved_to[v] = next;
-    mesh.positions[next] = mesh.positions[v];
-    mesh.normals[next] = mesh.normals[v];
+    polygons.points[next] = polygons.points[v];
     ++next;
   }
-  mesh.positions.resize(next);
-  mesh.normals.resize(next);
-  std::erase_if(mesh.triangles, [&](const auto& triangle) { return !stays(triangle[0]); });
-  tbb::parallel_for(std::size_t{0}, mesh.triangles.size(), [&](std::size_t t) {
-    for (std::uint32_t& v : mesh.triangles[t]) v = moved_to[v];
+  polygons.points.resize(next);
+  std::erase_if(polygons.faces, [&](const auto& face) { return !stays(face[0]); });
+  tbb::parallel_for(std::size_t{0}, polygons.faces.size(), [&](std::size_t f) {
+    for (std::uint32_t& v : polygons.faces[f]) v = moved_to[v];
   });
   return count;
 }

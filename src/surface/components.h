@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "leafhull/shape.h"
+#include "surface/polygonise.h"
 
 namespace leafhull {
 
@@ -14,6 +14,6 @@ struct ComponentCount {
 /// Drops the connected components of a closed mesh whose enclosed volume is below `smallest` times
 /// the largest one's; the order of what stays is kept. A hollow inside another component is a
 /// component of its own, measured by the volume it takes away.
-ComponentCount drop_small_components(Mesh& mesh, double smallest);
+ComponentCount drop_small_components(Polygons& polygons, double smallest);
 
 }  // namespace leafhull

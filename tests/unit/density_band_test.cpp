@@ -151,7 +151,7 @@ TEST(KernelSet, GathersWhatIsNearInAscendingOrder) {
 
 struct Band {
   std::map<Coord, std::vector<std::uint32_t>> bricks;
-  std::vector<Block> inside;
+  std::vector<InsideBlock> inside;
 };
 
 Band band_of(const KernelSet& kernels, const BandOptions& options) {
@@ -169,8 +169,8 @@ Band band_of(const KernelSet& kernels, const BandOptions& options) {
 enum class Verdict { evaluated, inside, outside };
 Verdict verdict(const Band& band, Coord s) {
   if (band.bricks.count(block_origin(s, kBrickEdge))) return Verdict::evaluated;
-  for (const Block& b : band.inside) {
-    if (block_origin(s, b.edge) == b.origin) return Verdict::inside;
+  for (const auto& [block, threshold] : band.inside) {
+    if (block_origin(s, block.edge) == block.origin) return Verdict::inside;
   }
   return Verdict::outside;
 }
@@ -180,7 +180,7 @@ TEST(Band, DecidesOnlyWhatTheDensityBearsOut) {
   const Lattice lattice = Lattice::near({0, 0, 0}, 0.03);
   const KernelSet set = on_lattice(kernels, lattice);
   const double t = 1;
-  const Band band = band_of(set, {t, t});
+  const Band band = band_of(set, {{t}});
   EXPECT_FALSE(band.inside.empty());
   EXPECT_FALSE(band.bricks.empty());
   std::mt19937 random(5);
@@ -206,7 +206,7 @@ TEST(Band, EvaluatesBothSidesOfEveryCrossing) {
   const Lattice lattice = Lattice::near({0, 0, 0}, 0.1);
   const KernelSet set = on_lattice(kernels, lattice);
   const double t = 1.5;
-  const Band band = band_of(set, {t, t});
+  const Band band = band_of(set, {{t}});
   const auto inside = [&](Coord s) {
     return reference::density(kernels, lattice.world(to_vec3d(s)), 2) >= t;
   };
@@ -231,7 +231,7 @@ TEST(Band, EvaluatesBothSidesOfEveryCrossing) {
 TEST(Band, BrickListsAreThoseOfTheDenseSearch) {
   const auto kernels = random_kernels(800, 6, 0.3f, kFar);
   const KernelSet set = on_lattice(kernels, Lattice::near(kFar, 0.1));
-  const Band band = band_of(set, {1.5, 1.5});
+  const Band band = band_of(set, {{1.5}});
   const Band dense = band_of(set, {});
   EXPECT_GT(dense.bricks.size(), band.bricks.size());
   for (const auto& [origin, list] : band.bricks) {

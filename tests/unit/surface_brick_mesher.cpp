@@ -204,12 +204,12 @@ TEST(BrickMesher, ProvenBlocksStandForEvaluatedOnes) {
   const auto ball = [](Vec3d p) { return 2 - dot(p, p) / (16.2 * 16.2); };
   const Field dense = field_of(ball, 1.0, {-24, -24, -24}, {24, 24, 24});
   Field sparse({}, 1.0);
-  std::vector<Block> inside;
+  std::vector<InsideBlock> inside;
   for (const Field::Brick* brick : dense.bricks()) {
     const Coord o{brick->origin().x(), brick->origin().y(), brick->origin().z()};
     const Vec3d middle = to_vec3d(o) + Vec3d(4, 4, 4);
     if (length(middle) < 8) {  // the eight bricks around the origin
-      inside.push_back({o, kBrickEdge});
+      inside.push_back({{o, kBrickEdge}, 1.0});
     } else {
       add_brick(sparse, ball, o);
     }

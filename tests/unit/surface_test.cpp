@@ -123,7 +123,7 @@ TEST(Field, KnowsItsHighestSample) {
 TEST(DensityGrid, IsOnTheGlobalLattice) {
   Field field({0.25, {320, -640, 32}}, 1.5);
   add_brick(field, [](Vec3d p) { return p == Vec3d(10, 3, 4) ? 7 : 0.5; }, {8, 0, 0});
-  field.add_inside(std::vector<Block>{{{16, 0, 0}, 16}});
+  field.add_inside(std::vector<InsideBlock>{{{{16, 0, 0}, 16}, 1.5}});
   const auto grid = density_grid(field);
   EXPECT_EQ(grid->getName(), "density");
   EXPECT_EQ(grid->metaValue<double>("threshold"), 1.5);
@@ -161,13 +161,13 @@ TEST(Metrics, ProvenBlocksCountLikeEvaluatedOnes) {
   const auto ball = [](Vec3d p) { return 2 - dot(p, p) / (14.2 * 14.2); };
   const Field dense = field_of(ball, 1.0, {-24, -24, -24}, {24, 24, 24});
   Field sparse({}, 1.0);
-  std::vector<Block> inside;
+  std::vector<InsideBlock> inside;
   for (const Field::Brick* brick : dense.bricks()) {
     const Coord o{brick->origin().x(), brick->origin().y(), brick->origin().z()};
     const bool middle = std::abs(2 * o.x + 7) < 16 && std::abs(2 * o.y + 7) < 16 &&
                         std::abs(2 * o.z + 7) < 16;  // the eight bricks around the origin, inside
     if (middle) {
-      inside.push_back({o, kBrickEdge});
+      inside.push_back({{o, kBrickEdge}, 1.0});
     } else {
       add_brick(sparse, ball, o);
     }
@@ -215,57 +215,75 @@ TEST(Metrics, CountTheCellsThatCornersTell) {
   EXPECT_EQ(m.on_voxels, on);
 }
 
-Mesh tetrahedra(std::vector<float> sizes) {
-  Mesh mesh;
+Polygons tetrahedra(std::vector<float> sizes) {
+  Polygons polygons;
   for (const float s : sizes) {
-    const auto v = static_cast<std::uint32_t>(mesh.positions.size());
+    const auto v = static_cast<std::uint32_t>(polygons.points.size());
     for (const Vec3f p : {Vec3f{0, 0, 0}, Vec3f{s, 0, 0}, Vec3f{0, s, 0}, Vec3f{0, 0, s}}) {
-      mesh.positions.push_back(p + Vec3f(100, 0, 0));
-      mesh.normals.push_back({0, 0, s});
+      polygons.points.push_back(p + Vec3f(100, 0, 0));
     }
     for (const auto& [a, b, c] :
          {std::array{0u, 2u, 1u}, {0u, 1u, 3u}, {0u, 3u, 2u}, {1u, 2u, 3u}}) {
-      mesh.triangles.push_back({v + a, v + b, v + c});
+      polygons.faces.push_back({v + a, v + b, v + c, v + c});
     }
   }
-  return mesh;
+  return polygons;
 }
 
 TEST(Components, SmallOnesAreDroppedByVolume) {
   // Volumes as 1 : 27 : 8.
-  Mesh mesh = tetrahedra({1, 3, 2});
-  const ComponentCount count = drop_small_components(mesh, 0.1);
+  Polygons polygons = tetrahedra({1, 3, 2});
+  const ComponentCount count = drop_small_components(polygons, 0.1);
   EXPECT_EQ(count.kept, 2u);
   EXPECT_EQ(count.dropped, 1u);
-  ASSERT_EQ(mesh.positions.size(), 8u);
-  EXPECT_EQ(mesh.normals[0], Vec3f(0, 0, 3));
-  EXPECT_EQ(mesh.normals[4], Vec3f(0, 0, 2));
-  EXPECT_TRUE(closed(mesh.triangles));
+  ASSERT_EQ(polygons.points.size(), 8u);
+  EXPECT_EQ(polygons.points[1], Vec3f(103, 0, 0));
+  EXPECT_EQ(polygons.points[5], Vec3f(102, 0, 0));
+  EXPECT_TRUE(closed(triangulate(polygons)));
+}
+
+TEST(Components, AQuadCountsWhole) {
+  // A cube of volume 8 beside a tetrahedron of 4/3, 0.167 of it; of half the cube it would be 0.33.
+  Polygons polygons = tetrahedra({2});
+  for (int i = 0; i < 8; ++i) {
+    polygons.points.push_back({i & 4 ? 2.0f : 0, i & 2 ? 2.0f : 0, i & 1 ? 2.0f : 0});
+  }
+  for (const auto& [a, b, c, d] : {std::array{0u, 1u, 3u, 2u},
+                                   {4u, 6u, 7u, 5u},
+                                   {0u, 4u, 5u, 1u},
+                                   {2u, 3u, 7u, 6u},
+                                   {0u, 2u, 6u, 4u},
+                                   {1u, 5u, 7u, 3u}}) {
+    polygons.faces.push_back({4 + a, 4 + b, 4 + c, 4 + d});
+  }
+  Polygons same = polygons;
+  EXPECT_EQ(drop_small_components(same, 0.16).kept, 2u);
+  EXPECT_EQ(drop_small_components(polygons, 0.17).kept, 1u);
+  EXPECT_EQ(polygons.points.size(), 8u);
 }
 
 TEST(Components, AreFoundAcrossManyTriangles) {
   // A strip whose triangles come in any order, and beside it a thousand small ones.
   constexpr std::uint32_t kLength = 50'000;
-  Mesh mesh = tetrahedra(std::vector<float>(1000, 0.01f));
+  Polygons polygons = tetrahedra(std::vector<float>(1000, 0.01f));
   for (std::uint32_t i = 0; i < kLength; ++i) {
-    mesh.positions.push_back({static_cast<float>(i), i % 2 ? 1.0f : 0.0f, i % 3 ? 1.0f : 0.0f});
-    mesh.normals.push_back({0, 0, 1});
+    polygons.points.push_back({static_cast<float>(i), i % 2 ? 1.0f : 0.0f, i % 3 ? 1.0f : 0.0f});
   }
   for (std::uint32_t i = 4000; i + 2 < 4000 + kLength; ++i) {
-    mesh.triangles.push_back({i, i + 1, i + 2});
+    polygons.faces.push_back({i, i + 1, i + 2, i + 2});
   }
-  std::shuffle(mesh.triangles.begin(), mesh.triangles.end(), std::mt19937(3));
-  const ComponentCount count = drop_small_components(mesh, 0.001);
+  std::shuffle(polygons.faces.begin(), polygons.faces.end(), std::mt19937(3));
+  const ComponentCount count = drop_small_components(polygons, 0.001);
   EXPECT_EQ(count.kept, 1u);
   EXPECT_EQ(count.dropped, 1000u);
-  EXPECT_EQ(mesh.positions.size(), kLength);
-  EXPECT_EQ(mesh.triangles.size(), kLength - 2);
+  EXPECT_EQ(polygons.points.size(), kLength);
+  EXPECT_EQ(polygons.faces.size(), kLength - 2);
 }
 
 TEST(Components, AFractionOfZeroKeepsAll) {
-  Mesh mesh = tetrahedra({1, 3, 2});
-  EXPECT_EQ(drop_small_components(mesh, 0).kept, 3u);
-  EXPECT_EQ(mesh.positions.size(), 12u);
+  Polygons polygons = tetrahedra({1, 3, 2});
+  EXPECT_EQ(drop_small_components(polygons, 0).kept, 3u);
+  EXPECT_EQ(polygons.points.size(), 12u);
 }
 
 }  // namespace
