@@ -29,8 +29,10 @@ const MARGIN = 1.06;
 
 const TURN = MathUtils.degToRad(7.5), ZOOM = 0.85; // for each press of a key or a button
 
-const HINT = 'Drag to turn; all three turn together. Zoom with + and −, by pinching, or with the ' +
-  'wheel after a click. Drag with two fingers or the right button to move.';
+const HINT = window.matchMedia('(pointer: coarse)').matches ?
+  'Drag sideways to turn, pinch to zoom, move with two fingers. All turn together.' :
+  'Drag to turn, drag with the right button to move, click and use the wheel to zoom. All turn ' +
+    'together.';
 
 /** src/page/packed_mesh.h tells the format. */
 function unpack(text) {
@@ -55,6 +57,16 @@ function unpack(text) {
   geometry.computeVertexNormals();
   geometry.computeBoundingBox();
   return geometry;
+}
+
+/** How far a shape reaches from the vertical through `centre`. */
+function reach(geometry, centre) {
+  const { array } = geometry.getAttribute('position');
+  let most = 0;
+  for (let i = 0; i < array.length; i += 3) {
+    most = Math.max(most, Math.hypot(array[i] - centre.x, array[i + 2] - centre.z));
+  }
+  return most;
 }
 
 /** The one WebGL context, with the lights and the matter of every shape. */
@@ -104,7 +116,7 @@ class Pane {
     this.geometry = null;
   }
 
-  /** Gives the canvas as many pixels as it covers; whether that changed it. */
+  /** Gives the canvas as many pixels as it covers. */
   fit() {
     const ratio = Math.min(window.devicePixelRatio, MOST_PIXEL_RATIO);
     const width = Math.max(1, Math.round(this.canvas.clientWidth * ratio));
@@ -197,13 +209,13 @@ class View {
   frame() {
     const box = new Box3();
     for (const pane of this.panes) box.union(pane.geometry.boundingBox);
-    const size = box.getSize(new Vector3());
-    const radius = Math.hypot(size.x, size.z) / 2;
+    box.getCenter(this.target);
+    const radius = Math.max(...this.panes.map((pane) => reach(pane.geometry, this.target)));
     const [{ canvas }] = this.panes;
     const aspect = canvas.clientWidth / canvas.clientHeight;
     const tanY = TAN_HALF_VIEW / Math.max(aspect, 1), tanX = tanY * aspect;
     const elevation = MathUtils.degToRad(ELEVATION);
-    const height = size.y / 2 * Math.cos(elevation) + radius * Math.sin(elevation);
+    const height = (box.max.y - box.min.y) / 2 * Math.cos(elevation) + radius * Math.sin(elevation);
     const distance = MARGIN * Math.max(height / tanY, radius / tanX) + radius;
 
     this.camera.fov = 2 * MathUtils.radToDeg(Math.atan(tanY));
@@ -211,7 +223,6 @@ class View {
     this.camera.near = distance / 100;
     this.camera.far = distance * 10;
     this.camera.updateProjectionMatrix();
-    box.getCenter(this.target);
     this.camera.position
       .setFromSphericalCoords(distance, Math.PI / 2 - elevation, MathUtils.degToRad(AZIMUTH))
       .add(this.target);

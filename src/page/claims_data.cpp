@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "page/figures.h"
+#include "page/typeset.h"
 
 namespace leafhull {
 namespace {
@@ -34,10 +35,10 @@ std::string tally(const ReadingStudy& reading) {
 Json verdict_data(const Verdict& verdict) {
   Json data = mark(verdict.outcome);
   data["number"] = verdict.number;
-  data["claim"] = verdict.claim;
-  data["test"] = verdict.test;
-  data["figures"] = verdict.figures;
-  data["paper"] = verdict.paper;
+  data["claim"] = typeset(verdict.claim);
+  data["test"] = typeset(verdict.test);
+  data["figures"] = typeset(verdict.figures);
+  data["paper"] = typeset(verdict.paper);
   return data;
 }
 
@@ -46,6 +47,7 @@ Json cell(const TreeStudy& tree, std::size_t claim) {
   const auto holds = std::ranges::count_if(tree.readings, [&](const ReadingStudy& reading) {
     return reading.verdicts.at(claim).outcome == Outcome::holds;
   });
+  data["tree"] = tree.name;
   data["held"] = std::to_string(holds);
   data["of"] = std::to_string(tree.readings.size());
   return data;
@@ -59,8 +61,9 @@ nlohmann::json claims_data(const Study& study) {
   for (std::size_t i = 0; i < first.size(); ++i) {
     Json cells = Json::array();
     for (const TreeStudy& tree : study.trees) cells.push_back(cell(tree, i));
-    claims.push_back(
-        {{"number", first[i].number}, {"claim", first[i].claim}, {"cells", std::move(cells)}});
+    claims.push_back({{"number", first[i].number},
+                      {"claim", typeset(first[i].claim)},
+                      {"cells", std::move(cells)}});
   }
   return claims;
 }

@@ -6,6 +6,7 @@
 
 #include "page/base64.h"
 #include "page/packed_mesh.h"
+#include "page/typeset.h"
 #include "study/numbers.h"
 
 namespace leafhull {
@@ -13,10 +14,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-Json picture_data(const LabelledPicture& labelled, const std::string& subject) {
-  const Picture& picture = labelled.picture;
-  std::string alt = subject;
-  for (const std::string& line : labelled.lines) alt += ", " + line;
+Json picture_data(const Picture& picture, const std::string& alt) {
   return {{"src", data_uri("image/png", encode_png(picture))},
           {"width", std::to_string(picture.width)},
           {"height", std::to_string(picture.height)},
@@ -25,7 +23,7 @@ Json picture_data(const LabelledPicture& labelled, const std::string& subject) {
 
 Json lines_data(const std::vector<std::string>& lines) {
   Json data = Json::array();
-  for (const std::string& line : lines) data.push_back({{"line", line}});
+  for (const std::string& line : lines) data.push_back({{"line", typeset(line)}});
   return data;
 }
 
@@ -40,9 +38,17 @@ std::string mesh_text(const PackedMesh& mesh) {
   return json.dump();
 }
 
-std::string triangles_text(const Mesh& mesh, std::size_t shown) {
-  const std::string all = grouped(mesh.triangles.size()) + " triangles";
-  return shown == mesh.triangles.size() ? all : all + ", simplified to " + grouped(shown) + " here";
+/// What a shape comes to, and where the view shows less than there is.
+std::string caption(const StudyRow& row) {
+  if (row.empty) return "no surface";
+  return grouped(row.metrics.dilated_voxels) + " dilated voxels, " + grouped(row.off_site()) +
+         " off-site vertices";
+}
+
+std::string simplification(const Mesh& mesh, const PackedMesh& shown) {
+  if (shown.triangles == mesh.triangles.size()) return "";
+  return "turning: " + grouped(shown.triangles) + " of " + grouped(mesh.triangles.size()) +
+         " triangles";
 }
 
 }  // namespace
@@ -50,19 +56,18 @@ std::string triangles_text(const Mesh& mesh, std::size_t shown) {
 nlohmann::json shapes_data(const TreeStudy& tree) {
   Json shapes = Json::array();
   for (std::size_t i = 0; i < tree.meshes.size(); ++i) {
-    Json shape = {
-        {"method", paper_name(static_cast<Method>(i))}, {"picture", false}, {"mesh", false}};
+    const std::string method(paper_name(static_cast<Method>(i)));
+    Json shape = {{"method", method},
+                  {"caption", caption(tree.readings.front().table1[i])},
+                  {"picture", false},
+                  {"mesh", false}};
     if (i < tree.methods.size()) {
-      shape["picture"] = picture_data(tree.methods[i], tree.name + " as a shape");
-      shape["lines"] = lines_data(tree.methods[i].lines);
+      shape["picture"] = picture_data(tree.methods[i].picture, tree.name + " by " + method);
     }
-    const Mesh& mesh = tree.meshes[i];
-    if (mesh.triangles.empty() || tree.bounds.empty()) {
-      shape["caption"] = "no surface";
-    } else {
-      const PackedMesh packed = pack_mesh(mesh, tree.bounds);
-      shape["mesh"] = mesh_text(packed);
-      shape["caption"] = triangles_text(mesh, packed.triangles);
+    if (!tree.meshes[i].triangles.empty() && !tree.bounds.empty()) {
+      const PackedMesh packed = pack_mesh(tree.meshes[i], tree.bounds);
+      shape["mesh"] = {{"data", mesh_text(packed)}};
+      shape["simplification"] = simplification(tree.meshes[i], packed);
     }
     shapes.push_back(std::move(shape));
   }
@@ -73,7 +78,9 @@ nlohmann::json sheet_data(const std::vector<LabelledPicture>& pictures, const st
   if (pictures.empty()) return false;
   Json cells = Json::array();
   for (const LabelledPicture& picture : pictures) {
-    Json cell = picture_data(picture, tree);
+    std::string alt = tree;
+    for (const std::string& line : picture.lines) alt += ", " + line;
+    Json cell = picture_data(picture.picture, alt);
     cell["lines"] = lines_data(picture.lines);
     cells.push_back(std::move(cell));
   }

@@ -73,7 +73,7 @@ Json ratios_row(const std::string& label, const std::array<StudyRow, 3>& rows, C
     if (isotropic.empty || count(isotropic) == 0) return kNone;
     return fixed(static_cast<double>(count(row)) / static_cast<double>(count(isotropic)), 2);
   };
-  return {{"label", label + ", of L&D"}, {"cells", cells(rows, ratio)}, {"derived", true}};
+  return {{"label", label + ", L&D = 1"}, {"cells", cells(rows, ratio)}, {"derived", true}};
 }
 
 Json shares_row(const std::string& label, const std::array<StudyRow, 3>& rows,
@@ -105,8 +105,8 @@ Json table1(const TreeStudy& tree, const ReadingStudy& own) {
 // Table 2
 
 std::string added_text(const StudyTime& time) {
-  const double percent = std::round(100 * (time.proposed / time.previous - 1));
-  return (percent >= 0 ? "+" : "") + fixed(percent, 0) + "%";
+  const double added = time.proposed / time.previous - 1;
+  return std::string(added < 0 ? "" : "+") + fixed(100 * added, 0) + "%";
 }
 
 void append_seconds(Json& cells, const StudyTime* time) {

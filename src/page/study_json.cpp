@@ -37,6 +37,9 @@ Json to_json_value(const Verdict& verdict) {
           {"figures", verdict.figures}, {"paper", verdict.paper}};
 }
 
+Json to_json_value(const ReadingStudy& reading);
+Json to_json_value(const TreeStudy& tree);
+
 template <class Range>
 Json list(const Range& values) {
   Json list = Json::array();
