@@ -30,8 +30,7 @@ struct Arguments {
 
   // sweep
   std::vector<SweptOption> swept;  ///< more than one value each
-  SweepFolder folder;
-  bool yes = false;
+  bool yes = false, restart = false;
 
   std::filesystem::path picture;  ///< suggest
 };
