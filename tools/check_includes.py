@@ -19,6 +19,9 @@ ROOMS = {
     "output": (("density", "surface"), ("tinygltf", "openvdb", "json")),
     "pipeline": (("density", "device", "surface"), ("tbb",)),
     "study": ((), ()),
+    "text": ((), ()),
+    "render": (("text",), ("embree", "stb", "tbb")),
+    "chart": (("text",), ()),
     "cli": ((), ("cli11", "json")),
     "bench": (
         ("density", "device", "pipeline", "surface"),
