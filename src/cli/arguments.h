@@ -10,6 +10,7 @@
 #include "leafhull/device.h"
 #include "leafhull/options.h"
 #include "leafhull/output.h"
+#include "leafhull/sweep.h"
 
 namespace leafhull::cli {
 
@@ -19,10 +20,18 @@ struct Arguments {
   std::filesystem::path tree;
   Options options;
   std::set<std::string_view> given;  ///< names of the rows of option_table() that were typed
+  std::string typed;                 ///< the options again, quoted for a shell
   OutputFiles files;
   DeviceOptions device;
   bool quiet = false, verbose = false;
   bool json = false;
+
+  // sweep
+  std::vector<SweptOption> swept;  ///< more than one value each
+  SweepFolder folder;
+  bool yes = false;
+
+  std::filesystem::path picture;  ///< suggest
 
   // study
   std::vector<std::filesystem::path> trees;
