@@ -18,6 +18,9 @@ ROOMS = {
     "surface": (("density",), ("openvdb", "tbb")),
     "output": (("density", "surface"), ("tinygltf", "openvdb", "json")),
     "pipeline": (("density", "device", "surface"), ("tbb",)),
+    "text": ((), ()),
+    "render": (("text",), ("embree", "stb", "tbb")),
+    "chart": (("text",), ()),
     "sweep": (("chart", "output"), ("json",)),
     "cli": ((), ("cli11", "json")),
     "bench": (
