@@ -94,6 +94,7 @@ void run_sweep_verb(const Arguments& arguments) {
   const SweepPlan plan = plan_of(arguments);
   const std::string folder = arguments.folder.string();
   check_sweep_folder(arguments.folder);
+  catch_signals();
 
   std::future<Device> opening = open_device(arguments.device, first_falloff(plan));
   console.progress("read", 0);
