@@ -8,14 +8,17 @@
 #include <tuple>
 #include <vector>
 
-#include "camera.h"
 #include "leafhull/error.h"
 #include "leafhull/leaves.h"
+#include "leafhull/picture.h"
 #include "leafhull/tree.h"
-#include "render.h"
-#include "scene.h"
+#include "output/transaction.h"
+#include "render/camera.h"
+#include "render/painter.h"
+#include "render/scene.h"
+#include "render/surface.h"
 
-namespace leafhull::preview {
+namespace leafhull::render {
 namespace {
 
 struct Arguments {
@@ -71,7 +74,7 @@ void preview(const Arguments& arguments) {
   const Placement placement = place(tree, leaves);
 
   const DeviceHandle embree = open_embree();
-  std::vector<std::shared_ptr<Surface>> tree_surfaces, shape_surfaces;
+  std::vector<std::shared_ptr<const Surface>> tree_surfaces, shape_surfaces;
   std::vector<Vec3f> points;
   const auto add = [&](const TreeModel& model, const Instance& instance, Look look) {
     if (model.primitives[instance.primitive].triangles.empty()) return;
@@ -86,12 +89,19 @@ void preview(const Arguments& arguments) {
   for (const Instance& instance : shape.instances) add(shape, instance, Look::shape);
 
   const auto [width, height] = arguments.size;
-  Picture picture(width, height);
+  Picture picture{width, height, {}};
+  picture.rgb.resize(std::size_t{3} * width * height);
   const Camera camera = frame(points, width / 2 / static_cast<float>(height));
   draw(Scene(embree.get(), tree_surfaces), camera, arguments.samples, 0, width / 2, picture);
   draw(Scene(embree.get(), shape_surfaces), camera, arguments.samples, width / 2, width - width / 2,
        picture);
-  write_png(picture, arguments.picture);
+
+  const std::vector<std::uint8_t> png = encode_png(picture);
+  Transaction files;
+  files.write(arguments.picture, [&](std::ostream& file) {
+    file.write(reinterpret_cast<const char*>(png.data()), static_cast<std::streamsize>(png.size()));
+  });
+  files.commit();
 }
 
 int run(int argc, char** argv) {
@@ -129,6 +139,6 @@ int run(int argc, char** argv) {
 }
 
 }  // namespace
-}  // namespace leafhull::preview
+}  // namespace leafhull::render
 
-int main(int argc, char** argv) { return leafhull::preview::run(argc, argv); }
+int main(int argc, char** argv) { return leafhull::render::run(argc, argv); }

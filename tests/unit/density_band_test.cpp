@@ -228,6 +228,36 @@ TEST(Band, EvaluatesBothSidesOfEveryCrossing) {
   EXPECT_GT(crossings, 100);
 }
 
+TEST(Band, SeveralThresholdsAreDecidedEachAsAlone) {
+  const auto kernels = random_kernels(100, 1, 0.6f);
+  const KernelSet set = on_lattice(kernels, Lattice::near({0, 0, 0}, 0.015));
+  const std::vector<double> thresholds{1, 10, 25};
+  const Band band = band_of(set, {thresholds});
+  std::set<double> proven;
+  for (const InsideBlock& block : band.inside) proven.insert(block.threshold);
+  EXPECT_EQ(proven, std::set<double>(thresholds.begin(), thresholds.end()));
+  std::size_t evaluated = 0;
+  for (const double t : thresholds) {
+    const Band alone = band_of(set, {{t}});
+    evaluated += alone.bricks.size();
+    for (const auto& [origin, list] : alone.bricks) EXPECT_TRUE(band.bricks.count(origin));
+    // What is not evaluated any more is proven as before, in blocks of any size.
+    std::mt19937 random(5);
+    std::uniform_int_distribution<int> place(-70, 140);
+    for (int i = 0; i < 3000; ++i) {
+      const Coord s{place(random), place(random), place(random)};
+      const Verdict expected = verdict(alone, s);
+      if (verdict(band, s) == Verdict::evaluated) continue;
+      const auto holds = [&](const InsideBlock& inside) {
+        return inside.threshold >= t && block_origin(s, inside.block.edge) == inside.block.origin;
+      };
+      const bool inside = std::any_of(band.inside.begin(), band.inside.end(), holds);
+      EXPECT_EQ(inside ? Verdict::inside : Verdict::outside, expected) << t;
+    }
+  }
+  EXPECT_LT(band.bricks.size(), evaluated);
+}
+
 TEST(Band, BrickListsAreThoseOfTheDenseSearch) {
   const auto kernels = random_kernels(800, 6, 0.3f, kFar);
   const KernelSet set = on_lattice(kernels, Lattice::near(kFar, 0.1));

@@ -120,6 +120,24 @@ TEST(Field, KnowsItsHighestSample) {
   EXPECT_EQ(field.sample_count(), 2u * kBrickSamples);
 }
 
+TEST(Field, ServesEveryThresholdThatItWasEvaluatedFor) {
+  Field low({}, 1.0);
+  add_brick(low, [](Vec3d) { return 2; }, {0, 0, 0});
+  low.add_inside(std::vector<InsideBlock>{{{{8, 0, 0}, 8}, 1.0}, {{{16, 0, 0}, 16}, 2.5}});
+  EXPECT_EQ(low.inside().size(), 2u);
+  const Field high = low.at(2.5);
+  ASSERT_EQ(high.inside().size(), 1u);
+  EXPECT_EQ(high.inside()[0].origin, (Coord{16, 0, 0}));
+  for (const Field& field : {low, high}) {
+    const auto inside = [&](int x) {
+      return field.negated().tree().getValue(openvdb::Coord(x, 1, 1)) < field.iso_value();
+    };
+    EXPECT_TRUE(inside(17));
+    EXPECT_EQ(inside(9), field.threshold() == 1.0);
+    EXPECT_EQ(inside(1), field.threshold() == 1.0);
+  }
+}
+
 TEST(DensityGrid, IsOnTheGlobalLattice) {
   Field field({0.25, {320, -640, 32}}, 1.5);
   add_brick(field, [](Vec3d p) { return p == Vec3d(10, 3, 4) ? 7 : 0.5; }, {8, 0, 0});

@@ -8,7 +8,7 @@
 
 #include "leafhull/vec.h"
 
-namespace leafhull::preview {
+namespace leafhull::render {
 
 inline std::uint32_t hash(std::uint32_t x) {
   x = (x ^ (x >> 16)) * 0x21f0aaadu;
@@ -71,4 +71,4 @@ inline Vec3f cosine_direction(Vec3f n, Vec2f sample) {
   return normalized(on_disk(n, sample, 1) - n * (1 - std::sqrt(1 - sample.x)));
 }
 
-}  // namespace leafhull::preview
+}  // namespace leafhull::render

@@ -5,7 +5,7 @@
 
 #include "leafhull/vec.h"
 
-namespace leafhull::preview {
+namespace leafhull::render {
 
 /// A pinhole camera with a long lens, slightly above the tree.
 struct Camera {
@@ -18,7 +18,8 @@ struct Camera {
   }
 };
 
-/// The camera whose picture of `aspect` (width / height) holds `points` with a margin.
-Camera frame(std::span<const Vec3f> points, float aspect);
+/// The camera whose picture of `aspect` (width / height) holds `points` with `margin`, a part of
+/// the picture's width and height, on each side.
+Camera frame(std::span<const Vec3f> points, float aspect, float margin = 0.06f);
 
-}  // namespace leafhull::preview
+}  // namespace leafhull::render

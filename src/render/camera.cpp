@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "camera.h"
+#include "render/camera.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-namespace leafhull::preview {
+namespace leafhull::render {
 namespace {
 
 constexpr float kRadian = std::numbers::pi_v<float> / 180;
 constexpr float kAzimuth = 32 * kRadian, kElevation = 9 * kRadian;
 constexpr float kTanHalfView = 0.11f;  // of the picture's longer side
-constexpr float kMargin = 0.06f;       // of the picture, on each side
 
 /// The frustum planes on both sides of one picture axis, pushed outward until they touch the
 /// points.
@@ -29,7 +28,7 @@ struct Wedge {
 
 }  // namespace
 
-Camera frame(std::span<const Vec3f> points, float aspect) {
+Camera frame(std::span<const Vec3f> points, float aspect, float margin) {
   const float longer = std::max(aspect, 1.0f);
   Camera camera;
   camera.tan_x = kTanHalfView * aspect / longer;
@@ -39,7 +38,7 @@ Camera frame(std::span<const Vec3f> points, float aspect) {
   camera.right = normalized(cross(camera.forward, Vec3f{0, 1, 0}));
   camera.up = cross(camera.right, camera.forward);
 
-  Wedge horizontal{camera.tan_x * (1 - 2 * kMargin)}, vertical{camera.tan_y * (1 - 2 * kMargin)};
+  Wedge horizontal{camera.tan_x * (1 - 2 * margin)}, vertical{camera.tan_y * (1 - 2 * margin)};
   for (const Vec3f p : points) {
     const float depth = dot(p, camera.forward);
     horizontal.include(dot(p, camera.right), depth);
@@ -50,4 +49,4 @@ Camera frame(std::span<const Vec3f> points, float aspect) {
   return camera;
 }
 
-}  // namespace leafhull::preview
+}  // namespace leafhull::render

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "texture.h"
+#include "render/texture.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace leafhull::preview {
+namespace leafhull::render {
 namespace {
 
 /// IEC 61966-2-1, decoded.
@@ -50,18 +50,11 @@ void for_each_texel(const Image& image, const Material& material, Vec2f uv, Func
   }
 }
 
-const Image* image_of(const TreeModel& model, const Material& material) {
-  if (material.base_color_image < 0) return nullptr;
-  const Image& image = model.images[material.base_color_image];
-  return image.empty() ? nullptr : &image;
-}
-
 }  // namespace
 
-Vec3f base_color(const TreeModel& model, const Material& material, Vec2f uv) {
+Vec3f base_color(const Material& material, const Image* image, Vec2f uv) {
   const std::array<float, 4>& factor = material.base_color;
   const Vec3f plain{factor[0], factor[1], factor[2]};
-  const Image* image = image_of(model, material);
   if (!image) return plain;
   Vec3f sum;
   float total = 0;
@@ -74,8 +67,7 @@ Vec3f base_color(const TreeModel& model, const Material& material, Vec2f uv) {
   return {plain.x * sum.x / total, plain.y * sum.y / total, plain.z * sum.z / total};
 }
 
-float alpha(const TreeModel& model, const Material& material, Vec2f uv) {
-  const Image* image = image_of(model, material);
+float alpha(const Material& material, const Image* image, Vec2f uv) {
   if (!image) return material.base_color[3];
   float sum = 0;
   for_each_texel(*image, material, uv,
@@ -83,4 +75,4 @@ float alpha(const TreeModel& model, const Material& material, Vec2f uv) {
   return material.base_color[3] * sum / 255;
 }
 
-}  // namespace leafhull::preview
+}  // namespace leafhull::render

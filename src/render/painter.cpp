@@ -1,29 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "render.h"
+#include "render/painter.h"
 
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "sampling.h"
+#include "render/light.h"
+#include "render/sampling.h"
 
-namespace leafhull::preview {
+namespace leafhull::render {
 namespace {
 
-constexpr Vec3f kWhite{1, 1, 1};
-constexpr Vec3f kSun{2.30f, 2.08f, 1.68f};
-constexpr Vec3f kZenith{0.46f, 0.58f, 0.84f}, kHorizon{0.70f, 0.71f, 0.70f};
-constexpr Vec3f kPaperBounce{0.40f, 0.38f, 0.35f};
-constexpr Vec3f kShapeGreen{0.21f, 0.33f, 0.13f};
 constexpr Vec3f kThroughLeaf{0.95f, 0.85f, 0.35f};
 constexpr Vec3f kShadow{0.60f, 0.62f, 0.70f};  // the darkest the paper gets
-constexpr float kSunRadius = 0.045f;           // tangent of the sun's angle: soft edges
-constexpr float kSkyReach = 0.35f;             // how far leaves shade one another from the sky
 constexpr int kSkyRays = 2;                    // per sample
-
-constexpr Vec3f operator*(Vec3f a, Vec3f b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
-constexpr Vec3f mix(Vec3f a, Vec3f b, float t) { return a * (1 - t) + b * t; }
 
 float luminance(Vec3f c) { return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z; }
 
@@ -31,22 +22,6 @@ float luminance(Vec3f c) { return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z;
 float smoothstep(float zero, float one, float x) {
   const float t = std::clamp((x - zero) / (one - zero), 0.0f, 1.0f);
   return t * t * (3 - 2 * t);
-}
-
-Vec3f sky(Vec3f direction) {
-  return direction.y < 0 ? kPaperBounce : mix(kHorizon, kZenith, std::sqrt(direction.y));
-}
-
-/// Rolls highlights off below white, colour by colour.
-Vec3f develop(Vec3f radiance) {
-  const auto shoulder = [](float x) { return x < 0.5f ? x : 1 - 0.25f / x; };
-  return {shoulder(radiance.x), shoulder(radiance.y), shoulder(radiance.z)};
-}
-
-std::uint8_t srgb(float linear) {
-  const float x = std::clamp(linear, 0.0f, 1.0f);
-  const float s = x <= 0.0031308f ? 12.92f * x : 1.055f * std::pow(x, 1 / 2.4f) - 0.055f;
-  return static_cast<std::uint8_t>(std::lround(255 * s));
 }
 
 /// The random numbers of one sample of one pixel.
@@ -61,11 +36,11 @@ struct Sample {
 
 class Painter {
  public:
-  Painter(const Scene& scene, const Camera& camera) : scene_(scene), camera_(camera) {
-    const Vec3f towards_eye = cross(camera.right, Vec3f{0, 1, 0});
-    sun_ = normalized(camera.right * -0.75f + Vec3f{0, 1.1f, 0} + towards_eye * 0.4f);
-    paper_reach_ = length(camera.eye) * camera.tan_x;
-  }
+  Painter(const Scene& scene, const Camera& camera)
+      : scene_(scene),
+        camera_(camera),
+        sun_(sun_direction(camera)),
+        paper_reach_(length(camera.eye) * camera.tan_x) {}
 
   Vec3f color(float x, float y, const Sample& sample) const {
     const Vec3f direction = camera_.direction(x, y);
@@ -96,22 +71,17 @@ class Painter {
   }
 
   static Vec3f painted(const Hit& hit) {
-    switch (hit.look) {
-      case Look::wood:
-        return hit.color * 0.75f;
-      case Look::leaf:
-        return hit.color * (0.42f / (0.2f + luminance(hit.color)));  // exporters' greens differ
-      case Look::shape:
-        break;
-    }
-    return kShapeGreen;
+    if (hit.surface->look == Look::shape) return kShapeGreen;
+    const Vec3f color = hit.surface->color(hit.uv);
+    if (hit.surface->look == Look::wood) return color * 0.75f;
+    return color * (0.42f / (0.2f + luminance(color)));  // exporters' greens differ
   }
 
   /// The part of the sun's light that goes on to the eye. A leaf scatters it both ways, yellower
   /// through it.
   static Vec3f sun_taken(const Hit& hit, Vec3f sun) {
     const float cosine = dot(hit.normal, sun);
-    if (hit.look != Look::leaf) return kWhite * std::max(cosine, 0.0f);
+    if (hit.surface->look != Look::leaf) return kWhite * std::max(cosine, 0.0f);
     return cosine > 0 ? kWhite * (0.3f + 0.7f * cosine) : kThroughLeaf * (0.3f - 0.7f * cosine);
   }
 
@@ -128,7 +98,7 @@ class Painter {
 
   const Scene& scene_;
   const Camera& camera_;
-  Vec3f sun_;          ///< from the upper left, before the tree
+  Vec3f sun_;
   float paper_reach_;  ///< where the ground's shadow has faded to white
 };
 
@@ -154,4 +124,4 @@ void draw(const Scene& scene, const Camera& camera, int samples, int left, int w
   });
 }
 
-}  // namespace leafhull::preview
+}  // namespace leafhull::render

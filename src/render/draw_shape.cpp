@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: Apache-2.0
+// A quick picture of one mesh: a ray, one of the sun's and one of the sky's per pixel. Neighbours
+// take turns over sixteen directions and share what they found; only at edges are there more rays.
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "leafhull/error.h"
+#include "leafhull/picture.h"
+#include "render/light.h"
+#include "render/sampling.h"
+#include "render/scene.h"
+
+namespace leafhull {
+namespace render {
+namespace {
+
+constexpr float kMargin = 0.03f;
+constexpr int kTurns = 4;  // pixels of a square of kTurns x kTurns look in different directions
+constexpr int kEdgeSamples = 8;
+
+/// How much of the light arrives at a point, 0..1.
+struct Light {
+  float sun = 0, sky = 0;
+};
+
+/// What a pixel's centre sees.
+struct Spot {
+  std::optional<Hit> hit;
+  Light light;
+};
+
+template <class T>
+class Grid {
+ public:
+  Grid(int width, int height)
+      : width_(width), height_(height), cells_(static_cast<std::size_t>(width) * height) {}
+  int width() const { return width_; }
+  int height() const { return height_; }
+  T& operator()(int x, int y) { return cells_[static_cast<std::size_t>(y) * width_ + x]; }
+  const T& operator()(int x, int y) const {
+    return cells_[static_cast<std::size_t>(y) * width_ + x];
+  }
+  bool holds(int x, int y) const { return x >= 0 && y >= 0 && x < width_ && y < height_; }
+
+ private:
+  int width_, height_;
+  std::vector<T> cells_;
+};
+
+class ShapePainter {
+ public:
+  ShapePainter(const Scene& scene, const Camera& camera, int width, int height)
+      : scene_(scene),
+        camera_(camera),
+        sun_(sun_direction(camera)),
+        spots_(width, height),
+        smooth_(width, height),
+        pixel_(2 * camera.tan_x * length(camera.eye) / width) {}
+
+  Picture picture() {
+    Picture picture{spots_.width(), spots_.height(), {}};
+    picture.rgb.resize(std::size_t{3} * picture.width * picture.height);
+    each_pixel([&](int x, int y) { spots_(x, y) = look(x, y); });
+    each_pixel([&](int x, int y) { smooth_(x, y) = share(x, y); });
+    each_pixel([&](int x, int y) {
+      const Vec3f color = is_edge(x, y) ? edge_color(x, y) : color_at(x, y);
+      std::uint8_t* rgb = &picture.rgb[3 * (static_cast<std::size_t>(y) * picture.width + x)];
+      rgb[0] = srgb(color.x), rgb[1] = srgb(color.y), rgb[2] = srgb(color.z);
+    });
+    return picture;
+  }
+
+ private:
+  template <class Function>
+  void each_pixel(Function&& function) const {
+    tbb::parallel_for(0, spots_.height(), [&](int y) {
+      for (int x = 0; x < spots_.width(); ++x) function(x, y);
+    });
+  }
+
+  std::optional<Hit> cast(float x, float y) const {
+    return scene_.closest(camera_.eye, camera_.direction(x / spots_.width(), y / spots_.height()));
+  }
+
+  Spot look(int x, int y) const {
+    Spot spot{cast(x + 0.5f, y + 0.5f), {}};
+    if (!spot.hit) return spot;
+    const Hit& hit = *spot.hit;
+    const std::uint32_t turn = x % kTurns + y % kTurns * kTurns;
+    const Vec3f sun = normalized(on_disk(sun_, sobol(turn, 1), kSunRadius));
+    if (dot(hit.normal, sun) > 0) spot.light.sun = !scene_.occluded(hit.position, sun, HUGE_VALF);
+    const Vec3f ray = cosine_direction(hit.normal, sobol(turn, 2));
+    spot.light.sky =
+        dot(ray, hit.face_normal) > 0 && !scene_.occluded(hit.position, ray, kSkyReach);
+    return spot;
+  }
+
+  /// How much two points belong to one surface, 0..1.
+  float likeness(const Hit& a, const Hit& b) const {
+    const float apart = std::abs(dot(a.normal, b.position - a.position)) / (4 * pixel_);
+    const float turned = std::max(0.0f, dot(a.normal, b.normal));
+    return std::max(0.0f, 1 - apart) * turned * turned;
+  }
+
+  /// The light of a spot and its neighbours, every turn counted once.
+  Light share(int x, int y) const {
+    const Spot& centre = spots_(x, y);
+    if (!centre.hit) return {};
+    Light sum;
+    float sun_weight = 1e-6f, sky_weight = 1e-6f;
+    constexpr int kReach = kTurns / 2;
+    for (int j = -kReach; j <= kReach; ++j) {
+      for (int i = -kReach; i <= kReach; ++i) {
+        if (!spots_.holds(x + i, y + j)) continue;
+        const Spot& spot = spots_(x + i, y + j);
+        if (!spot.hit) continue;
+        const bool rim_x = std::abs(i) == kReach, rim_y = std::abs(j) == kReach;
+        const float weight =
+            likeness(*centre.hit, *spot.hit) * (rim_x ? 0.5f : 1) * (rim_y ? 0.5f : 1);
+        sum.sky += weight * spot.light.sky, sky_weight += weight;
+        if (dot(spot.hit->normal, sun_) <= 0) continue;
+        sum.sun += weight * spot.light.sun, sun_weight += weight;
+      }
+    }
+    return {sum.sun / sun_weight, sum.sky / sky_weight};
+  }
+
+  bool is_edge(int x, int y) const {
+    const std::optional<Hit>& here = spots_(x, y).hit;
+    for (int j = -1; j <= 1; ++j) {
+      for (int i = -1; i <= 1; ++i) {
+        if (!spots_.holds(x + i, y + j)) continue;
+        const std::optional<Hit>& there = spots_(x + i, y + j).hit;
+        if (here.has_value() != there.has_value()) return true;
+        if (here && likeness(*here, *there) < 0.5f) return true;
+      }
+    }
+    return false;
+  }
+
+  Vec3f shade(const Hit& hit, Light light) const {
+    const Vec3f sky_there =
+        mix(kPaperBounce, mix(kHorizon, kZenith, 0.6f), 0.5f + 0.5f * hit.normal.y);
+    const Vec3f sky_light = mix(kShapeGreen * kHorizon * 0.35f, sky_there, light.sky);
+    const Vec3f sun_light = kSun * (light.sun * std::max(0.0f, dot(hit.normal, sun_)));
+    return develop(kShapeGreen * (sun_light + sky_light));
+  }
+
+  Vec3f color_at(int x, int y) const {
+    const Spot& spot = spots_(x, y);
+    return spot.hit ? shade(*spot.hit, smooth_(x, y)) : kWhite;
+  }
+
+  Vec3f edge_color(int x, int y) const {
+    Vec3f sum{};
+    for (std::uint32_t i = 0; i < kEdgeSamples; ++i) {
+      const Vec2f at = sobol(i, 3);
+      const std::optional<Hit> hit = cast(x + at.x, y + at.y);
+      sum = sum + (hit ? shade(*hit, light_like(*hit, x, y)) : kWhite);
+    }
+    return sum * (1.0f / kEdgeSamples);
+  }
+
+  /// The light of the spot around (x, y) that is most like `hit`.
+  Light light_like(const Hit& hit, int x, int y) const {
+    float best = 0;
+    Light light{0.5f, 0.5f};
+    for (int j = -1; j <= 1; ++j) {
+      for (int i = -1; i <= 1; ++i) {
+        if (!spots_.holds(x + i, y + j) || !spots_(x + i, y + j).hit) continue;
+        const float like = likeness(hit, *spots_(x + i, y + j).hit);
+        if (like > best) best = like, light = smooth_(x + i, y + j);
+      }
+    }
+    return light;
+  }
+
+  const Scene& scene_;
+  const Camera& camera_;
+  Vec3f sun_;
+  Grid<Spot> spots_;
+  Grid<Light> smooth_;
+  float pixel_;  ///< its size in the scene
+};
+
+std::array<Vec3f, 8> corners(const Box& box, const Placement& placement) {
+  std::array<Vec3f, 8> points;
+  for (int i = 0; i < 8; ++i) {
+    points[i] = placement({i & 1 ? box.high.x : box.low.x, i & 2 ? box.high.y : box.low.y,
+                           i & 4 ? box.high.z : box.low.z});
+  }
+  return points;
+}
+
+}  // namespace
+}  // namespace render
+
+Picture draw_shape(const Mesh& mesh, const Box& frame, int width, int height) {
+  using namespace render;
+  if (mesh.triangles.empty()) {
+    return {width, height, std::vector<std::uint8_t>(std::size_t{3} * width * height, 255)};
+  }
+  const Placement placement{(frame.low + frame.high) / 2, 1 / frame.longest_side()};
+  const DeviceHandle embree = open_embree();
+  const Scene scene(embree.get(), {make_surface(embree.get(), mesh, placement)}, Build::quick);
+  const Camera camera =
+      render::frame(corners(frame, placement), width / static_cast<float>(height), kMargin);
+  return ShapePainter(scene, camera, width, height).picture();
+}
+
+}  // namespace leafhull

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/light.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace leafhull::render {
+
+Vec3f sun_direction(const Camera& camera) {
+  const Vec3f towards_eye = cross(camera.right, Vec3f{0, 1, 0});
+  return normalized(camera.right * -0.75f + Vec3f{0, 1.1f, 0} + towards_eye * 0.4f);
+}
+
+Vec3f sky(Vec3f direction) {
+  return direction.y < 0 ? kPaperBounce : mix(kHorizon, kZenith, std::sqrt(direction.y));
+}
+
+Vec3f develop(Vec3f radiance) {
+  const auto shoulder = [](float x) { return x < 0.5f ? x : 1 - 0.25f / x; };
+  return {shoulder(radiance.x), shoulder(radiance.y), shoulder(radiance.z)};
+}
+
+std::uint8_t srgb(float linear) {
+  const float x = std::clamp(linear, 0.0f, 1.0f);
+  const float s = x <= 0.0031308f ? 12.92f * x : 1.055f * std::pow(x, 1 / 2.4f) - 0.055f;
+  return static_cast<std::uint8_t>(std::lround(255 * s));
+}
+
+}  // namespace leafhull::render

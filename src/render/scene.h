@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "render/embree.h"
+#include "render/surface.h"
+
+namespace leafhull::render {
+
+struct Hit {
+  Vec3f position;  ///< on the smooth surface the normals describe, not to be shaded by its facets
+  Vec3f normal;    ///< interpolated, unit, on the side of face_normal
+  Vec3f face_normal;  ///< of the triangle, unit, on the ray's side
+  Vec2f uv;
+  const Surface* surface;
+};
+
+enum class Build { careful, quick };  ///< of the hierarchy: for many rays, for few
+
+/// Surfaces that rays are cast against, from any number of threads. Texels below the alpha cutoff
+/// are holes. The scene is about 1 large.
+class Scene {
+ public:
+  Scene(RTCDevice device, std::vector<std::shared_ptr<const Surface>> surfaces,
+        Build build = Build::careful);
+
+  std::optional<Hit> closest(Vec3f origin, Vec3f direction) const;
+  bool occluded(Vec3f origin, Vec3f direction, float distance) const;
+
+ private:
+  std::vector<std::shared_ptr<const Surface>> surfaces_;  ///< by Embree's geometry id
+  SceneHandle scene_;
+};
+
+}  // namespace leafhull::render

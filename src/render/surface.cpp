@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/surface.h"
+
+#include <algorithm>
+
+#include "leafhull/error.h"
+#include "render/texture.h"
+
+namespace leafhull::render {
+namespace {
+
+/// Normals go by the cofactors of the linear part, which is its inverse transpose up to scale.
+std::array<Vec3d, 3> cofactors(const Transform& m) {
+  const auto row = [&](int i) { return Vec3d{m[i][0], m[i][1], m[i][2]}; };
+  return {cross(row(1), row(2)), cross(row(2), row(0)), cross(row(0), row(1))};
+}
+
+void pass_holes(const RTCFilterFunctionNArguments* args) {
+  const auto& surface = *static_cast<const Surface*>(args->geometryUserPtr);
+  const unsigned triangle = RTCHitN_primID(args->hit, args->N, 0);
+  const Vec2f at{RTCHitN_u(args->hit, args->N, 0), RTCHitN_v(args->hit, args->N, 0)};
+  if (surface.is_hole(surface.uv(triangle, at))) args->valid[0] = 0;
+}
+
+/// Gives the surface its triangles; `position(i)` is vertex i in model space.
+template <class Function>
+void set_triangles(Surface& surface, RTCDevice device, std::size_t vertex_count,
+                   std::span<const std::array<std::uint32_t, 3>> triangles,
+                   const Placement& placement, Function&& position) {
+  surface.geometry = GeometryHandle(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE));
+  RTCGeometry geometry = surface.geometry.get();
+  auto* vertices = static_cast<Vec3f*>(rtcSetNewGeometryBuffer(
+      geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(Vec3f), vertex_count));
+  if (!vertices) throw Error(ErrorCode::internal, "Embree has no memory for a surface");
+  for (std::size_t i = 0; i < vertex_count; ++i) vertices[i] = placement(position(i));
+  rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, triangles.data(),
+                             0, sizeof triangles[0], triangles.size());
+  surface.vertices = {vertices, vertex_count};
+  surface.triangles = triangles;
+}
+
+}  // namespace
+
+Vec2f Surface::uv(unsigned triangle, Vec2f at) const {
+  if (uvs.empty()) return {};
+  const auto& [a, b, c] = triangles[triangle];
+  const Vec2f &p = uvs[a], &q = uvs[b], &r = uvs[c];
+  const float w = 1 - at.x - at.y;
+  return {w * p.x + at.x * q.x + at.y * r.x, w * p.y + at.x * q.y + at.y * r.y};
+}
+
+Vec3f Surface::color(Vec2f uv) const { return base_color(material, image, uv); }
+
+bool Surface::is_hole(Vec2f uv) const {
+  const double cutoff = material.alpha_mode == AlphaMode::mask ? material.alpha_cutoff : 0.5;
+  return alpha(material, image, uv) < cutoff;
+}
+
+std::shared_ptr<const Surface> make_surface(RTCDevice device, const TreeModel& model,
+                                            const Instance& instance, Look look,
+                                            const Placement& placement) {
+  const Primitive& primitive = model.primitives[instance.primitive];
+  auto surface = std::make_shared<Surface>();
+  surface->look = look;
+  const std::vector<Vec3d> positions = world_positions(model, instance);
+  set_triangles(*surface, device, positions.size(), primitive.triangles, placement,
+                [&](std::size_t i) { return positions[i]; });
+
+  const auto [x, y, z] = cofactors(instance.to_world);
+  surface->normals.reserve(primitive.normals.size());
+  for (const Vec3f n : primitive.normals) {
+    const Vec3d local(n);
+    surface->normals.emplace_back(normalized(Vec3d{dot(x, local), dot(y, local), dot(z, local)}));
+  }
+
+  surface->uvs = primitive.uvs;
+  if (primitive.material >= 0) surface->material = model.materials[primitive.material];
+  const int image = surface->material.base_color_image;
+  if (image >= 0 && !primitive.uvs.empty() && !model.images[image].empty()) {
+    surface->image = &model.images[image];
+  }
+  if (surface->material.alpha_mode != AlphaMode::opaque && look != Look::shape) {
+    RTCGeometry geometry = surface->geometry.get();
+    rtcSetGeometryUserData(geometry, surface.get());
+    rtcSetGeometryIntersectFilterFunction(geometry, pass_holes);
+    rtcSetGeometryOccludedFilterFunction(geometry, pass_holes);
+  }
+  rtcCommitGeometry(surface->geometry.get());
+  return surface;
+}
+
+std::shared_ptr<const Surface> make_surface(RTCDevice device, const Mesh& mesh,
+                                            const Placement& placement) {
+  auto surface = std::make_shared<Surface>();
+  set_triangles(*surface, device, mesh.positions.size(), mesh.triangles, placement,
+                [&](std::size_t i) { return mesh.origin + Vec3d(mesh.positions[i]); });
+  surface->normals = mesh.normals;
+  rtcSetGeometryBuildQuality(surface->geometry.get(), RTC_BUILD_QUALITY_LOW);
+  rtcCommitGeometry(surface->geometry.get());
+  return surface;
+}
+
+std::vector<Vec3d> world_positions(const TreeModel& model, const Instance& instance) {
+  std::vector<Vec3d> points;
+  const std::vector<Vec3f>& local = model.primitives[instance.primitive].positions;
+  points.reserve(local.size());
+  for (const Vec3f p : local) {
+    const auto along = [&](const std::array<double, 4>& r) {
+      return r[0] * p.x + r[1] * p.y + r[2] * p.z + r[3];
+    };
+    points.push_back(
+        {along(instance.to_world[0]), along(instance.to_world[1]), along(instance.to_world[2])});
+  }
+  return points;
+}
+
+}  // namespace leafhull::render

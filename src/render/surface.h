@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "leafhull/shape.h"
+#include "leafhull/tree.h"
+#include "render/embree.h"
+
+namespace leafhull::render {
+
+/// From model space to the scene's: `origin` becomes zero, lengths are multiplied by `scale`.
+struct Placement {
+  Vec3d origin;
+  double scale = 1;
+  Vec3f operator()(Vec3d p) const { return Vec3f((p - origin) * scale); }
+};
+
+enum class Look { wood, leaf, shape };
+
+/// Triangles ready for ray casting; they can stand in several scenes. What they were made of must
+/// outlive them.
+struct Surface {
+  Look look = Look::shape;
+  std::span<const Vec3f> vertices;  ///< placed; the geometry's own
+  std::vector<Vec3f> normals;       ///< one per vertex, unit or zero; or none
+  std::span<const Vec2f> uvs;       ///< one per vertex, or none
+  std::span<const std::array<std::uint32_t, 3>> triangles;
+  Material material;
+  const Image* image = nullptr;  ///< of the base colour
+  GeometryHandle geometry;
+
+  /// At a point of a triangle, in Embree's barycentric coordinates.
+  Vec2f uv(unsigned triangle, Vec2f at) const;
+  /// Linear, at a texture coordinate.
+  Vec3f color(Vec2f uv) const;
+  /// Whether the texture cuts it away there.
+  bool is_hole(Vec2f uv) const;
+};
+
+/// An instance of a tree, or of a shape that was read from a file.
+std::shared_ptr<const Surface> make_surface(RTCDevice device, const TreeModel& model,
+                                            const Instance& instance, Look look,
+                                            const Placement& placement);
+
+std::shared_ptr<const Surface> make_surface(RTCDevice device, const Mesh& mesh,
+                                            const Placement& placement);
+
+/// The vertices of an instance in model space.
+std::vector<Vec3d> world_positions(const TreeModel& model, const Instance& instance);
+
+}  // namespace leafhull::render

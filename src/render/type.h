@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string_view>
+
+#include "leafhull/picture.h"
+
+namespace leafhull::render {
+
+/// Open Sans at one size. Characters that it lacks are drawn as its empty box.
+class Type {
+ public:
+  /// `size`: of the em, pixels.
+  explicit Type(float size) : size_(size) {}
+
+  float size() const { return size_; }
+  float width(std::string_view label) const;
+
+  /// Draws a label on white, its middle at `middle` across; what lies outside the picture is cut
+  /// off.
+  void draw(std::string_view label, float middle, float baseline, std::uint8_t grey,
+            Picture& picture) const;
+
+ private:
+  float size_;
+};
+
+}  // namespace leafhull::render

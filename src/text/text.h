@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace leafhull {
+
+/// A part of a label, on the line or below it.
+struct TextRun {
+  std::u32string text;
+  bool subscript = false;
+};
+
+/// Characters that can be drawn: what is not UTF-8 becomes U+FFFD, a control character a space.
+std::u32string decode_utf8(std::string_view text);
+
+/// The parts of a label. An underscore after a word of one letter makes the rest of the word its
+/// subscript: R_max, but not birch_2.
+std::vector<TextRun> split_subscripts(std::string_view label);
+
+}  // namespace leafhull
