@@ -21,6 +21,7 @@ ROOMS = {
     "text": ((), ()),
     "render": (("text",), ("embree", "stb", "tbb")),
     "chart": (("text",), ()),
+    "sweep": (("chart", "output"), ("json",)),
     "study": ((), ()),
     "page": (("chart", "output", "study"), ("json", "meshoptimizer", "mustache")),
     "cli": ((), ("cli11", "json")),

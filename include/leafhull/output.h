@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "leafhull/shape.h"
@@ -37,6 +38,14 @@ void check_output_folder(const std::filesystem::path& folder);
 /// gain `write`, what the other files took.
 /// @throws Error output: which file and why.
 void write_outputs(const OutputFiles& files, const Shape& shape, const RunDescription& run);
+
+/// As check_outputs, for a file that `write_file` is to write.
+void check_output(const std::filesystem::path& file, std::string_view extension,
+                  const std::filesystem::path& input);
+
+/// Writes the whole file or leaves it as it was.
+/// @throws Error output: why.
+void write_file(const std::filesystem::path& file, std::string_view bytes);
 
 /// The report as one JSON object, schema "leafhull-report/1". SPEC: 7.
 std::string report_json(const Report& report, const RunDescription& run);

@@ -36,4 +36,8 @@ Picture contact_sheet(std::string_view title, std::span<const LabelledPicture> p
 /// The picture as a PNG file.
 std::vector<std::uint8_t> encode_png(const Picture& picture);
 
+/// The picture that `file` is, a PNG.
+/// @throws Error input: it is none.
+Picture decode_png(std::span<const std::uint8_t> file);
+
 }  // namespace leafhull

@@ -10,6 +10,7 @@
 #include "leafhull/device.h"
 #include "leafhull/options.h"
 #include "leafhull/output.h"
+#include "leafhull/sweep.h"
 
 namespace leafhull::cli {
 
@@ -20,11 +21,19 @@ struct Arguments {
   std::vector<std::filesystem::path> trees;  ///< of a verb that takes several
   Options options;
   std::set<std::string_view> given;  ///< names of the rows of option_table() that were typed
+  std::string typed;                 ///< the options again, quoted for a shell
   OutputFiles files;
   std::filesystem::path folder;
   DeviceOptions device;
   bool quiet = false, verbose = false;
   bool json = false;
+
+  // sweep
+  std::vector<SweptOption> swept;  ///< more than one value each
+  SweepFolder folder;
+  bool yes = false;
+
+  std::filesystem::path picture;  ///< suggest
 };
 
 }  // namespace leafhull::cli

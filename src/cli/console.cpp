@@ -7,6 +7,7 @@
 #include <atomic>
 #include <cmath>
 #include <iostream>
+#include <string>
 
 #include "cli/values.h"
 
@@ -17,6 +18,19 @@ constexpr int kBarWidth = 30;
 constexpr std::chrono::milliseconds kRedraw{50};
 std::atomic<bool> shown = false;
 static_assert(std::atomic<bool>::is_always_lock_free);
+
+double since(std::chrono::steady_clock::time_point begin) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+/// Whole seconds, or minutes, or hours and minutes.
+std::string duration(double seconds) {
+  const long whole = std::lround(seconds);
+  if (whole < 100) return std::to_string(whole) + " s";
+  const long minutes = std::lround(seconds / 60);
+  if (minutes < 100) return std::to_string(minutes) + " min";
+  return std::to_string(minutes / 60) + " h " + std::to_string(minutes % 60) + " min";
+}
 
 }  // namespace
 
@@ -40,6 +54,21 @@ void Console::warn(const std::string& line) {
 }
 
 void Console::progress(std::string_view stage, double done) {
+  draw(stage, done, seconds(since(start_)));
+}
+
+void Console::progress(std::string_view stage, std::size_t done, std::size_t all) {
+  if (!resumed_) resumed_ = done, resumed_at_ = Clock::now();
+  std::string beside =
+      std::to_string(done) + " of " + std::to_string(all) + ", " + seconds(since(start_));
+  if (done > *resumed_) {
+    const double pace = since(resumed_at_) / static_cast<double>(done - *resumed_);
+    beside += ", about " + duration(pace * static_cast<double>(all - done)) + " left";
+  }
+  draw(stage, static_cast<double>(done) / static_cast<double>(all), beside);
+}
+
+void Console::draw(std::string_view stage, double done, const std::string& beside) {
   if (!bar_) return;
   const auto now = Clock::now();
   if (stage == stage_ && now - drawn_ < kRedraw) return;
@@ -50,8 +79,7 @@ void Console::progress(std::string_view stage, double done) {
   name.resize(std::max<std::size_t>(name.size(), 10), ' ');
   shown = true;
   std::cerr << "\r\033[K" << name << " [" << std::string(filled, '#')
-            << std::string(kBarWidth - filled, '.') << "] "
-            << seconds(std::chrono::duration<double>(now - start_).count()) << std::flush;
+            << std::string(kBarWidth - filled, '.') << "] " << beside << std::flush;
 }
 
 void clear_progress() noexcept {

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -20,13 +22,20 @@ class Console {
 
   /// A bar with the stage and the time since the start, on a terminal only.
   void progress(std::string_view stage, double done);
+  /// The same for a row of things: how many are done, and from their pace the time left. What is
+  /// done at the first call was not done now.
+  void progress(std::string_view stage, std::size_t done, std::size_t all);
 
  private:
   using Clock = std::chrono::steady_clock;
 
+  void draw(std::string_view stage, double done, const std::string& beside);
+
   bool quiet_, verbose_, bar_;
   Clock::time_point start_ = Clock::now(), drawn_{};
   std::string stage_;
+  std::optional<std::size_t> resumed_;
+  Clock::time_point resumed_at_{};
   std::set<std::string> warnings_;
 };
 

@@ -51,7 +51,19 @@ Flag option_flag(const OptionRow& row) {
           .set = [&row](Arguments& arguments, const std::string& text) {
             set_option(arguments.options, row, text);
             arguments.given.insert(row.name);
+            const std::string value = text.empty() ? "" : " " + quoted(text);
+            arguments.typed += " " + spelling(row) + value;
           }};
+}
+
+void set_values(Arguments& arguments, const OptionRow& row, const std::string& text) {
+  const SweptOption option = swept_option(row, text);
+  if (option.values.size() == 1) {
+    set_option(arguments.options, *option.row, option.values.front());
+  } else {
+    arguments.swept.push_back(option);
+  }
+  arguments.given.insert(row.name);
 }
 
 }  // namespace
@@ -60,6 +72,16 @@ std::vector<Flag> option_flags(std::string_view group) {
   std::vector<Flag> flags;
   for (const OptionRow& row : option_table()) {
     if (group.empty() || row.group == group) flags.push_back(option_flag(row));
+  }
+  return flags;
+}
+
+std::vector<Flag> swept_flags() {
+  std::vector<Flag> flags;
+  for (const OptionRow& row : option_table()) {
+    flags.push_back(option_flag(row));
+    if (!can_sweep(row)) continue;
+    flags.back().set = [&row](Arguments& a, const std::string& text) { set_values(a, row, text); };
   }
   return flags;
 }
@@ -96,6 +118,37 @@ std::vector<Flag> output_flags() {
        .help = "parameters, counts, metrics and times",
        .set = [](Arguments& a, const std::string& text) { a.files.report = text; }},
   };
+}
+
+std::vector<Flag> sweep_flags() {
+  return {
+      {.spelling = "-o,--output",
+       .value = "FOLDER",
+       .group = "Output",
+       .default_value = "none",
+       .help = "where the sweep is kept; made if need be. The same command again goes on there",
+       .set = [](Arguments& a, const std::string& text) { a.folder.path = text; }},
+      {.spelling = "--restart",
+       .group = "Output",
+       .default_value = "off",
+       .help = "begins anew, in place of the sweep that the folder holds",
+       .set = [](Arguments& a, const std::string&) { a.folder.restart = true; }},
+      {.spelling = "--yes",
+       .group = "Output",
+       .default_value = "off",
+       .help = "agrees to more than 10,000 combinations",
+       .set = [](Arguments& a, const std::string&) { a.yes = true; }},
+  };
+}
+
+std::vector<Flag> suggest_flags() {
+  return {{.spelling = "-o,--output",
+           .value = "FILE",
+           .group = "Output",
+           .range = ".png",
+           .default_value = "TREE-suggest.png",
+           .help = "the pictures, a row for each coverage",
+           .set = [](Arguments& a, const std::string& text) { a.picture = text; }}};
 }
 
 std::vector<Flag> device_flags() {

@@ -28,7 +28,11 @@ struct Flag {
 
 /// The rows of option_table(), or of one group of them.
 std::vector<Flag> option_flags(std::string_view group = {});
+/// The same, several values at once where a sweep takes them.
+std::vector<Flag> swept_flags();
 std::vector<Flag> output_flags();
+std::vector<Flag> sweep_flags();
+std::vector<Flag> suggest_flags();
 std::vector<Flag> device_flags();
 std::vector<Flag> console_flags();
 std::vector<Flag> json_flags();

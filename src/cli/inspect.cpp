@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <cctype>
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -21,18 +20,6 @@ constexpr std::size_t kGuesses = 3;
 std::string_view name_of(AlphaMode mode) {
   constexpr std::string_view kNames[] = {"opaque", "mask", "blend"};
   return kNames[static_cast<std::size_t>(mode)];
-}
-
-/// Quoted for a POSIX shell where it has to be.
-std::string quoted(const std::string& word) {
-  const bool plain = !word.empty() && std::all_of(word.begin(), word.end(), [](unsigned char c) {
-    return std::isalnum(c) != 0 ||
-           std::string_view("/._-+,:@%").find(static_cast<char>(c)) != std::string_view::npos;
-  });
-  if (plain) return word;
-  std::string text = "'";
-  for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return text + "'";
 }
 
 /// What a name from the file shows on a terminal: control characters become ?, which also matches

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/signals.h"
 
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
 #include <csignal>
 
 #include "cli/console.h"
@@ -9,16 +13,23 @@
 namespace leafhull::cli {
 namespace {
 
+/// Written before the handlers are there, and read by them.
+std::array<char, 4096> words;
+std::size_t words_size = 0;
+
 extern "C" void clean_up_and_die(int signal) {
   discard_unfinished_outputs();
   clear_progress();
+  [[maybe_unused]] const auto written = write(STDERR_FILENO, words.data(), words_size);
   std::signal(signal, SIG_DFL);
   std::raise(signal);
 }
 
 }  // namespace
 
-void catch_signals() {
+void catch_signals(std::string_view last_words) {
+  words_size = std::min(last_words.size(), words.size());
+  std::copy_n(last_words.begin(), words_size, words.begin());
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     // What the parent has ignored (nohup, a background job) stays ignored.
     if (std::signal(signal, clean_up_and_die) == SIG_IGN) std::signal(signal, SIG_IGN);

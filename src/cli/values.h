@@ -27,6 +27,9 @@ std::string_view nearest(std::string_view text, std::span<const std::string_view
 
 std::string joined(std::span<const std::string_view> words, std::string_view separator);
 
+/// Quoted for a POSIX shell where it has to be.
+std::string quoted(const std::string& word);
+
 std::string number(double value, int digits = 6);  ///< at most so many significant digits
 std::string count(std::uint64_t value);            ///< 1,234,567
 std::string seconds(double value);                 ///< 0.123 s

@@ -21,6 +21,8 @@ struct Verb {
 
 Verb extract_verb();
 Verb inspect_verb();
+Verb sweep_verb();
+Verb suggest_verb();
 Verb study_verb();
 Verb devices_verb();
 Verb help_options_verb();

@@ -80,6 +80,13 @@ void check_extension(const fs::path& file, std::string_view what, std::string_vi
               "Name a " + std::string(extension) + " file.");
 }
 
+void refuse_input(const fs::path& file, const fs::path& destination, const fs::path& input) {
+  std::error_code unreadable;
+  if (destination != fs::weakly_canonical(input, unreadable)) return;
+  throw Error(ErrorCode::usage, "the output " + file.string() + " is the input itself",
+              "Name another file.");
+}
+
 bool to_standard_output(const std::optional<fs::path>& file) { return file == kStandardOutput; }
 
 std::vector<fs::path> named_files(const OutputFiles& files) {
@@ -114,14 +121,9 @@ void check_outputs(const OutputFiles& files, const fs::path& input) {
   }
 
   std::map<fs::path, fs::path> name_of_destination;
-  std::error_code unreadable;
-  const fs::path real_input = fs::weakly_canonical(input, unreadable);
   for (const fs::path& file : named_files(files)) {
     const fs::path destination = resolve_destination(file);
-    if (destination == real_input) {
-      throw Error(ErrorCode::usage, "the output " + file.string() + " is the input itself",
-                  "Name another file.");
-    }
+    refuse_input(file, destination, input);
     const auto [first, is_new] = name_of_destination.emplace(destination, file);
     if (!is_new) {
       throw Error(
@@ -159,6 +161,17 @@ void write_outputs(const OutputFiles& files, const Shape& shape, const RunDescri
       transaction.write(*files.report, [&](std::ostream& stream) { stream << report; });
     }
   }
+  transaction.commit();
+}
+
+void check_output(const fs::path& file, std::string_view extension, const fs::path& input) {
+  check_extension(file, "the result", extension);
+  refuse_input(file, resolve_destination(file), input);
+}
+
+void write_file(const fs::path& file, std::string_view bytes) {
+  Transaction transaction;
+  transaction.write(file, [&](std::ostream& stream) { stream << bytes; });
   transaction.commit();
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "output/report.h"
+
 #include <algorithm>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -97,21 +98,24 @@ Json seconds(const std::vector<StageTime>& times) {
 
 }  // namespace
 
+Json report_object(const Report& report, const RunDescription& run) {
+  return {{"schema", "leafhull-report/1"},
+          {"version", kVersion},
+          {"input", run.input},
+          {"command", run.command},
+          {"parameters", parameters(report)},
+          {"device", report.device},
+          {"counts", counts(report.counts)},
+          {"density", density(report.density)},
+          {"metrics", metrics(report.metrics)},
+          {"seconds", seconds(report.seconds)},
+          {"peak_memory_bytes", report.peak_memory_bytes},
+          {"warnings", report.warnings}};
+}
+
 std::string report_json(const Report& report, const RunDescription& run) {
-  const Json json = {{"schema", "leafhull-report/1"},
-                     {"version", kVersion},
-                     {"input", run.input},
-                     {"command", run.command},
-                     {"parameters", parameters(report)},
-                     {"device", report.device},
-                     {"counts", counts(report.counts)},
-                     {"density", density(report.density)},
-                     {"metrics", metrics(report.metrics)},
-                     {"seconds", seconds(report.seconds)},
-                     {"peak_memory_bytes", report.peak_memory_bytes},
-                     {"warnings", report.warnings}};
   // A path may hold bytes that are no UTF-8; JSON may not.
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return report_object(report, run).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace leafhull

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "leafhull/device.h"
+#include "leafhull/leaves.h"
+#include "leafhull/options.h"
+#include "leafhull/output.h"
+#include "leafhull/picture.h"
+#include "leafhull/shape.h"
+
+namespace leafhull {
+
+/// An option and the values that it takes in a sweep, one or more, as a command line takes them.
+struct SweptOption {
+  const OptionRow* row = nullptr;  ///< of option_table()
+  std::vector<std::string> values;
+};
+
+/// Whether a sweep may give the option several values: numbers and names of Shape and Resolution.
+bool can_sweep(const OptionRow& row);
+
+/// The values that `text` stands for: a range first:last:step of numbers, the last included where
+/// a step meets it; a list a,b,c; or one value, handed on unread. Numbers of a threshold that end
+/// in % are values of threshold-percent.
+/// @throws Error usage: no range and no list, a range without values, a step that is not above
+/// zero, a value twice.
+SweptOption swept_option(const OptionRow& row, std::string_view text);
+
+/// How many combinations there are.
+/// @throws Error usage: more than a sweep can hold, 100,000.
+std::size_t combination_count(std::span<const SweptOption> swept);
+
+/// What a sweep extracts.
+struct SweepPlan {
+  std::vector<SweptOption> swept;     ///< in the order of option_table(), none twice
+  std::vector<Options> combinations;  ///< every one; the last swept option changes fastest
+};
+
+/// Where a sweep is kept.
+struct SweepFolder {
+  std::filesystem::path path;  ///< made where it does not exist
+  bool restart = false;        ///< what another sweep has left there is removed first
+};
+
+/// Looks at the folder before any work is done.
+/// @throws Error output: it is no folder, cannot be made, or may not be written to.
+void check_sweep_folder(const std::filesystem::path& folder);
+
+/// What a run of a sweep did.
+struct SweepSummary {
+  std::size_t combinations = 0;
+  std::size_t resumed = 0;         ///< of these, done by an earlier run
+  std::size_t empty = 0;           ///< of these, without a surface
+  std::vector<StageTime> seconds;  ///< of this run by stage, the total last
+  std::vector<std::string> warnings;
+};
+
+/// Called before the first combination with those that an earlier run has done, and as the sweep
+/// goes on.
+using SweepProgress =
+    std::function<void(std::string_view stage, std::size_t done, std::size_t combinations)>;
+
+/// Extracts every combination of `plan` and keeps in `folder`: sweep.csv and sweep.json, a row per
+/// combination in the order of `plan`; plot-OPTION.svg for every swept number; a picture of each
+/// combination in pictures/, and contact-sheet.png with all. A combination is on the disk once it
+/// is done (sweep.jsonl), and a sweep that was cut off goes on there. A row's seconds are what it
+/// took beyond the rows computed before it: neighbours share their work.
+/// @throws Error usage: the folder holds another sweep, or files of these names from elsewhere;
+///         output: which file and why; and what extract_series throws.
+SweepSummary run_sweep(const LeafSet& leaves, const SweepPlan& plan, Device& device,
+                       const SweepFolder& folder, const RunDescription& run,
+                       const SweepProgress& progress = {});
+
+/// One choice of coverage and R_max, and what it comes to.
+struct Suggestion {
+  double coverage = 0, radius_max = 0;  ///< R_max in crown units
+  bool empty = false;                   ///< no sample reaches T
+  Report report;
+  double dilated_volume = 0;  ///< dilated voxels, model units cubed
+  double dilated_share = 0;   ///< the same as a fraction of the leaves' bounding box
+};
+
+/// What an artist would choose from: coverages 0.85, 0.92 and 0.98 by R_max 1.5, 2.5 and 4, all
+/// else as in `options`, which hold neither a threshold nor a radius.
+struct Suggestions {
+  std::vector<Suggestion> choices;  ///< the radius changes fastest
+  Picture strip;                    ///< a labelled picture of each choice
+};
+
+/// @throws Error as extract_series does.
+Suggestions suggest(const LeafSet& leaves, const Options& options, Device& device,
+                    std::string_view title, const Progress& progress = {});
+
+}  // namespace leafhull

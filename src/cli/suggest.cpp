@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <future>
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "cli/console.h"
+#include "cli/signals.h"
+#include "cli/table.h"
+#include "cli/values.h"
+#include "cli/verb.h"
+#include "leafhull/error.h"
+#include "leafhull/sweep.h"
+#include "leafhull/tree.h"
+
+namespace leafhull::cli {
+namespace {
+
+std::string command_for(const Arguments& arguments, const Suggestion& choice) {
+  return "leafhull extract " + quoted(arguments.tree.string()) + arguments.typed + " --coverage " +
+         number(choice.coverage) + " --radius-max " + number(choice.radius_max) + " -o " +
+         quoted(arguments.tree.stem().string() + "-shape.glb");
+}
+
+std::string share(double fraction) { return number(100 * fraction, 3) + "%"; }
+
+void print_table(const Arguments& arguments, const std::vector<Suggestion>& choices) {
+  std::vector<std::vector<std::string>> rows = {
+      {"coverage", "R_max", "T", "dilated volume", "of the box", "components"}};
+  for (const Suggestion& choice : choices) {
+    const Report& report = choice.report;
+    rows.push_back({number(choice.coverage), number(choice.radius_max), number(report.threshold, 4),
+                    number(choice.dilated_volume, 4), share(choice.dilated_share),
+                    choice.empty ? "no surface" : count(report.counts.components)});
+  }
+  std::cout << table(rows)
+            << "\n"
+               "coverage        how much of the leaf vertices lies inside: lower is looser\n"
+               "R_max           in crown units, 1/64 of the crown: larger is rounder\n"
+               "dilated volume  what the shape fills beyond the leaves, model units cubed, and as\n"
+               "                a share of the leaves' bounding box\n"
+               "\nTry\n";
+  for (const Suggestion& choice : choices) {
+    std::cout << "  " << command_for(arguments, choice) << '\n';
+  }
+}
+
+void print_json(const Arguments& arguments, const std::vector<Suggestion>& choices,
+                const std::filesystem::path& picture) {
+  using Json = nlohmann::ordered_json;
+  Json list = Json::array();
+  for (const Suggestion& choice : choices) {
+    list.push_back({{"coverage", choice.coverage},
+                    {"radius_max", choice.radius_max},
+                    {"threshold", choice.report.threshold},
+                    {"empty", choice.empty},
+                    {"dilated_voxels", choice.report.metrics.dilated_voxels},
+                    {"dilated_volume", choice.dilated_volume},
+                    {"dilated_share_of_box", choice.dilated_share},
+                    {"components", choice.report.counts.components},
+                    {"command", command_for(arguments, choice)}});
+  }
+  const Json page = {
+      {"input", arguments.tree.string()}, {"picture", picture.string()}, {"suggestions", list}};
+  std::cout << page.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
+}
+
+void run_suggest(const Arguments& arguments) {
+  Console console(arguments.quiet, arguments.verbose);
+  const Options options = arguments.options;
+  const LeafOptions leaf_options = resolve(options).leaf_options();
+  std::filesystem::path picture = arguments.picture;
+  if (picture.empty()) picture = arguments.tree.stem().string() + "-suggest.png";
+  check_output(picture, ".png", arguments.tree);
+  catch_signals();
+
+  std::future<Device> opening = open_device(arguments.device, options.falloff);
+  console.progress("read", 0);
+  const LeafSet leaves = [&] {
+    const TreeModel tree = read_tree(arguments.tree);
+    for (const std::string& warning : tree.warnings) console.warn(warning);
+    return find_leaves(tree, leaf_options);
+  }();
+  for (const std::string& warning : leaves.warnings) console.warn(warning);
+  Device device = opening.get();
+  const Suggestions suggestions =
+      suggest(leaves, options, device, arguments.tree.filename().string(),
+              [&](std::string_view stage, double done) { console.progress(stage, done); });
+  const std::vector<std::uint8_t> png = encode_png(suggestions.strip);
+  write_file(picture, {reinterpret_cast<const char*>(png.data()), png.size()});
+
+  clear_progress();
+  if (arguments.json) {
+    print_json(arguments, suggestions.choices, picture);
+  } else {
+    print_table(arguments, suggestions.choices);
+  }
+  console.say("leafhull: pictures of all nine: " + picture.string());
+}
+
+}  // namespace
+
+Verb suggest_verb() {
+  return {.name = "suggest",
+          .summary = "nine shapes of a tree to choose from, as a table and pictures",
+          .about =
+              "Tries coverages 0.85, 0.92 and 0.98 with R_max 1.5, 2.5 and 4 crown units on TREE:\n"
+              "what each comes to, a picture of each, and the command for each.",
+          .examples =
+              "  leafhull suggest birch.glb\n"
+              "  leafhull suggest birch.glb --preset draft -o strip.png --json\n",
+          .takes_tree = true,
+          .flags = all_of({option_flags("Leaves"), option_flags("Resolution"), suggest_flags(),
+                           device_flags(), json_flags(), console_flags(), help_flags()}),
+          .run = run_suggest};
+}
+
+}  // namespace leafhull::cli

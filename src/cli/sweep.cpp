@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "leafhull/sweep.h"
+
+#include <algorithm>
+#include <future>
+
+#include "cli/console.h"
+#include "cli/signals.h"
+#include "cli/values.h"
+#include "cli/verb.h"
+#include "leafhull/error.h"
+#include "leafhull/tree.h"
+
+namespace leafhull::cli {
+namespace {
+
+constexpr std::size_t kMostUnasked = 10'000;
+
+void check_arguments(const Arguments& arguments) {
+  const std::string example =
+      "such as leafhull sweep " + quoted(arguments.tree.string()) + " --threshold 1.5:2.5:0.25 -o ";
+  if (arguments.quiet && arguments.verbose) {
+    throw Error(ErrorCode::usage, "--quiet and --verbose contradict each other",
+                "Give one of the two.");
+  }
+  if (arguments.swept.empty()) {
+    throw Error(ErrorCode::usage, "no option has several values",
+                "Give one a range or a list, " + example +
+                    (arguments.folder.path.empty() ? "out" : quoted(arguments.folder.path)) + ".");
+  }
+  if (arguments.folder.path.empty()) {
+    throw Error(ErrorCode::usage, "no folder is named",
+                "Name the one that keeps the sweep, " + example + "out.");
+  }
+  if (arguments.given.contains("threshold") && arguments.given.contains("threshold-percent")) {
+    throw Error(ErrorCode::usage, "--threshold and --threshold-percent contradict each other",
+                "Give one of the two.");
+  }
+}
+
+/// In the order of option_table(): it is one array.
+std::vector<SweptOption> in_order(std::vector<SweptOption> swept) {
+  std::sort(swept.begin(), swept.end(), [](const auto& a, const auto& b) { return a.row < b.row; });
+  return swept;
+}
+
+std::vector<Options> combinations(const Options& options, const std::vector<SweptOption>& swept) {
+  std::vector<Options> all = {options};
+  for (const SweptOption& option : swept) {
+    std::vector<Options> finer;
+    finer.reserve(all.size() * option.values.size());
+    for (const Options& coarse : all) {
+      for (const std::string& value : option.values) {
+        set_option(finer.emplace_back(coarse), *option.row, value);
+      }
+    }
+    all = std::move(finer);
+  }
+  return all;
+}
+
+SweepPlan plan_of(const Arguments& arguments) {
+  SweepPlan plan{in_order(arguments.swept), {}};
+  const std::size_t all = combination_count(plan.swept);
+  if (all > kMostUnasked && !arguments.yes) {
+    throw Error(ErrorCode::usage, "these are " + count(all) + " combinations",
+                "Take larger steps, or agree with --yes.");
+  }
+  plan.combinations = combinations(arguments.options, plan.swept);
+  for (Options& options : plan.combinations) options = resolve(options);
+  return plan;
+}
+
+/// The one falloff whose kernels are built while the tree is read.
+int first_falloff(const SweepPlan& plan) { return plan.combinations.front().falloff; }
+
+void say_summary(Console& console, const SweepSummary& summary, const Arguments& arguments,
+                 double elapsed) {
+  std::string text = "leafhull: " + count(summary.combinations) + " combinations";
+  if (summary.resumed > 0) text += ", " + count(summary.resumed) + " of them from before";
+  if (summary.empty > 0) text += ", " + count(summary.empty) + " without a surface";
+  console.say(text + " in " + seconds(elapsed) + ": " + arguments.folder.path.string());
+  for (const StageTime& time : summary.seconds) {
+    std::string stage = time.stage;
+    stage.resize(std::max<std::size_t>(stage.size(), 18), ' ');
+    console.detail("  " + stage + "  " + seconds(time.seconds));
+  }
+}
+
+void run_sweep_verb(const Arguments& arguments) {
+  const auto start = std::chrono::steady_clock::now();
+  Console console(arguments.quiet, arguments.verbose);
+  check_arguments(arguments);
+  const SweepPlan plan = plan_of(arguments);
+  const std::string folder = arguments.folder.path.string();
+  check_sweep_folder(arguments.folder.path);
+
+  std::future<Device> opening = open_device(arguments.device, first_falloff(plan));
+  console.progress("read", 0);
+  const LeafSet leaves = [&] {
+    const TreeModel tree = read_tree(arguments.tree);
+    for (const std::string& warning : tree.warnings) console.warn(warning);
+    return find_leaves(tree, plan.combinations.front().leaf_options());
+  }();
+  for (const std::string& warning : leaves.warnings) console.warn(warning);
+  Device device = opening.get();
+  console.detail("device      " + device.info().name);
+  console.detail("leaves      " + count(leaves.leaf_count) + " with " +
+                 count(leaves.vertices.size()) + " vertices");
+  catch_signals(arguments.quiet ? ""
+                                : "leafhull: stopped; what is done is in " + folder +
+                                      ": the same command goes on from there\n");
+
+  bool begun = false;
+  const SweepSummary summary = run_sweep(
+      leaves, plan, device, arguments.folder, {arguments.tree.string(), arguments.command},
+      [&](std::string_view stage, std::size_t done, std::size_t all) {
+        if (!std::exchange(begun, true) && done > 0) {
+          console.say("leafhull: resuming: " + count(done) + " of " + count(all) + " done");
+        }
+        console.progress(stage, done, all);
+      });
+  for (const std::string& warning : summary.warnings) console.warn(warning);
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+  say_summary(console, summary, arguments, elapsed.count());
+}
+
+}  // namespace
+
+Verb sweep_verb() {
+  return {
+      .name = "sweep",
+      .summary = "every combination of several values, as tables, plots and pictures",
+      .about =
+          "Extracts TREE with every combination of several values of options, and keeps in a\n"
+          "folder: sweep.csv and sweep.json with a row for each, a plot for each swept number,\n"
+          "and contact-sheet.png with their pictures, which also stand alone in pictures/.\n"
+          "\n"
+          "In Shape and Resolution, a number may be a range first:last:step, both ends\n"
+          "included, or a list a,b,c; a NAME may be a list. Percentages have their % each:\n"
+          "--threshold 30%:60%:10%. The options are combined in the order below, the first\n"
+          "changing slowest. A row's seconds are what it took beyond the rows before it.\n"
+          "\n"
+          "Ctrl-C loses no finished combination: the same command goes on where it stopped.",
+      .examples =
+          "  leafhull sweep birch.glb --threshold 1.5:2.5:0.25 -o out\n"
+          "  leafhull sweep birch.glb --coverage 0.8:0.98:0.06 --radius-max 1.5,2.5,4 -o out\n"
+          "  leafhull sweep birch.glb --method isotropic,controlled --threshold 30%:60%:10% "
+          "-o out\n",
+      .takes_tree = true,
+      .flags =
+          all_of({swept_flags(), sweep_flags(), device_flags(), console_flags(), help_flags()}),
+      .run = run_sweep_verb};
+}
+
+}  // namespace leafhull::cli

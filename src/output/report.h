@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "leafhull/output.h"
+
+namespace leafhull {
+
+/// The report as `report_json` prints it.
+nlohmann::ordered_json report_object(const Report& report, const RunDescription& run);
+
+}  // namespace leafhull

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <sys/types.h>
+
+#include <cstddef>
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+
+namespace leafhull {
+
+using Json = nlohmann::ordered_json;
+
+/// What is done of a sweep: a file of one JSON object per line, the first saying which sweep it is,
+/// every other one holding a combination. A line is on the disk before the next is begun, and a
+/// last line that a crash has cut short does not count.
+class Journal {
+ public:
+  /// Opens or creates `file`, keeps other processes out of it, and reads it.
+  /// @throws Error output: it cannot be written; usage: it is no journal, or another process has
+  /// it.
+  explicit Journal(std::filesystem::path file);
+  ~Journal();
+  Journal(const Journal&) = delete;
+  Journal& operator=(const Journal&) = delete;
+
+  /// Null in a new journal.
+  const Json& header() const { return header_; }
+  /// The combinations that are done, by their index `row`.
+  const std::map<std::size_t, Json>& rows() const { return rows_; }
+
+  /// Forgets everything and begins with `header`. @throws Error output.
+  void begin(const Json& header);
+  /// Adds a combination. @throws Error output; the journal is then as before.
+  void append(Json row);
+
+ private:
+  void read();
+  void truncate(off_t size);
+  void write_line(const Json& line);
+
+  std::filesystem::path file_;
+  int descriptor_ = -1;
+  off_t size_ = 0;  ///< of the whole lines
+  Json header_;
+  std::map<std::size_t, Json> rows_;
+};
+
+}  // namespace leafhull

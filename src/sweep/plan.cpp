@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sweep/plan.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <cstdio>
+#include <map>
+#include <set>
+
+#include "leafhull/error.h"
+#include "leafhull/version.h"
+#include "output/report.h"
+
+namespace leafhull {
+namespace {
+
+/// FNV-1a of 64 bits, over values instead of memory, which holds padding.
+class Checksum {
+ public:
+  void add(std::uint64_t bits) {
+    for (int byte = 0; byte < 8; ++byte) {
+      hash_ = (hash_ ^ (bits >> (8 * byte) & 0xFF)) * 0x100000001B3;
+    }
+  }
+  void add(double value) { add(std::bit_cast<std::uint64_t>(value)); }
+  void add(float value) { add(std::uint64_t{std::bit_cast<std::uint32_t>(value)}); }
+  template <class T>
+  void add(const Vec3<T>& v) {
+    add(v.x), add(v.y), add(v.z);
+  }
+
+  std::string text() const {
+    char digits[17];
+    std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(hash_));
+    return digits;
+  }
+
+ private:
+  std::uint64_t hash_ = 0xCBF29CE484222325;
+};
+
+std::string checksum(const LeafSet& leaves) {
+  Checksum sum;
+  for (const std::size_t count :
+       {leaves.vertices.size(), leaves.leaf_count, leaves.dropped_leaves}) {
+    sum.add(std::uint64_t{count});
+  }
+  for (const LeafVertex& leaf : leaves.vertices) {
+    sum.add(leaf.position);
+    sum.add(leaf.normal);
+    sum.add(leaf.major);
+    sum.add(leaf.radius_major);
+    sum.add(leaf.radius_minor);
+    sum.add(std::uint64_t{leaf.leaf});
+  }
+  return sum.text();
+}
+
+/// Resolved options by name, as a report has them.
+Json parameters(const Options& options) {
+  Report report;
+  report.options = options;
+  Json parameters = report_object(report, {})["parameters"];
+  const auto as_asked = [&](const char* name, const auto& value) {
+    parameters[name] = value ? Json(*value) : Json();
+  };
+  as_asked("threshold", options.threshold);
+  as_asked("resolution", options.resolution);
+  as_asked("voxel_size", options.voxel_size);
+  parameters.erase("radius_max_model");
+  return parameters;
+}
+
+/// The values of every option, in the order in which the combinations come to them.
+Json option_values(const SweepPlan& plan) {
+  Json values = Json::object();
+  std::map<std::string, std::set<Json>> seen;
+  for (const Options& options : plan.combinations) {
+    const Json resolved = parameters(options);
+    for (const auto& [name, value] : resolved.items()) {
+      if (seen[name].insert(value).second) values[name].push_back(value);
+    }
+  }
+  return values;
+}
+
+/// What a list of values is in a sentence.
+std::string listed(const Json& values) {
+  constexpr std::size_t kMost = 60;
+  std::string text;
+  for (const Json& value : values) {
+    text += text.empty() ? "" : ", ";
+    text += value.is_null() ? "unset" : value.is_string() ? value.get<std::string>() : value.dump();
+  }
+  return text.size() <= kMost ? text : text.substr(0, text.rfind(',', kMost)) + ", ...";
+}
+
+std::string first_difference(const Json& there, const Json& here) {
+  if (there.value("version", "") != here["version"]) {
+    return "it was made by leafhull " + there.value("version", "?");
+  }
+  if (there.value("leaves", "") != here["leaves"]) return "its tree, or its leaves, are others";
+  if (there.value("device", "") != here["device"]) {
+    return "it was computed on " + there.value("device", "another device");
+  }
+  for (const auto& [name, values] : here["options"].items()) {
+    const Json other = there.value("options", Json::object()).value(name, Json::array());
+    if (other == values) continue;
+    std::string option = name;
+    std::replace(option.begin(), option.end(), '_', '-');
+    return "its --" + option + " is " + listed(other) + ", not " + listed(values);
+  }
+  return "it sweeps other options";
+}
+
+/// What a file name can hold.
+std::string file_text(std::string text) {
+  std::replace(text.begin(), text.end(), ' ', '-');
+  return text;
+}
+
+}  // namespace
+
+Json identity(const LeafSet& leaves, const SweepPlan& plan, const DeviceInfo& device) {
+  Json swept = Json::array();
+  for (const SweptOption& option : plan.swept) swept.push_back(option.row->name);
+  return {{"schema", kJournalSchema},
+          {"version", kVersion},
+          {"leaves", checksum(leaves)},
+          {"device", device.name + " (" + device.platform + ", " + device.variant + ")"},
+          {"swept", swept},
+          {"options", option_values(plan)}};
+}
+
+void check_same_sweep(const Json& there, const Json& here, const std::filesystem::path& folder) {
+  if (there == here) return;
+  throw Error(
+      ErrorCode::usage,
+      folder.string() + " holds a sweep of something else: " + first_difference(there, here),
+      "Name another folder, or give --restart to replace that sweep.");
+}
+
+std::vector<std::string_view> values_of(const SweepPlan& plan, std::size_t combination) {
+  std::vector<std::string_view> values(plan.swept.size());
+  for (std::size_t i = plan.swept.size(); i-- > 0;) {
+    const std::vector<std::string>& all = plan.swept[i].values;
+    values[i] = all[combination % all.size()];
+    combination /= all.size();
+  }
+  return values;
+}
+
+double radius_max_in_model_units(const LeafSet& leaves, const Options& options) {
+  switch (options.radius_unit) {
+    case RadiusUnit::crown:
+      return *options.radius_max * leaves.bounds.longest_side() / kCrownUnits;
+    case RadiusUnit::leaf:
+      return *options.radius_max * leaves.mean_radius_major;
+    case RadiusUnit::model:
+      return *options.radius_max;
+  }
+  throw Error(ErrorCode::internal, "unknown radius unit");
+}
+
+std::vector<std::string> labels(const SweepPlan& plan, std::size_t combination) {
+  const std::vector<std::string_view> values = values_of(plan, combination);
+  std::vector<std::string> labels;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    labels.push_back(std::string(plan.swept[i].row->name) + " " + std::string(values[i]));
+  }
+  return labels;
+}
+
+std::string picture_name(const SweepPlan& plan, std::size_t combination) {
+  constexpr std::size_t kLongest = 200;  // file systems take 255
+  const std::size_t width = std::to_string(plan.combinations.size()).size();
+  std::string name = std::to_string(combination + 1);
+  name.insert(0, width - name.size(), '0');
+  for (const std::string& label : labels(plan, combination)) name += "-" + file_text(label);
+  return name.substr(0, kLongest) + ".png";
+}
+
+}  // namespace leafhull

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "leafhull/sweep.h"
+
+namespace leafhull {
+
+using Json = nlohmann::ordered_json;
+
+inline constexpr std::string_view kJournalSchema = "leafhull-sweep-journal/1";
+
+/// What makes a sweep this one: the leaves, leafhull's version, the device, and the values of every
+/// option over all combinations.
+Json identity(const LeafSet& leaves, const SweepPlan& plan, const DeviceInfo& device);
+
+/// @throws Error usage: `there`, the identity of the sweep in `folder`, is not `here`; the first
+/// difference is named.
+void check_same_sweep(const Json& there, const Json& here, const std::filesystem::path& folder);
+
+bool takes_number(const OptionRow& row);
+
+/// The values of the swept options in a combination.
+std::vector<std::string_view> values_of(const SweepPlan& plan, std::size_t combination);
+
+/// R_max of the combination, model units.
+double radius_max_in_model_units(const LeafSet& leaves, const Options& options);
+
+/// "threshold 1.5, radius-max 4": the swept options of a combination with their values.
+std::vector<std::string> labels(const SweepPlan& plan, std::size_t combination);
+
+/// "0007-threshold-1.5-radius-max-4.png": names that sort as the combinations do.
+std::string picture_name(const SweepPlan& plan, std::size_t combination);
+
+}  // namespace leafhull

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "chart/chart.h"
+#include "leafhull/sweep.h"
+
+namespace leafhull {
+
+using Json = nlohmann::ordered_json;
+
+/// A chart and the file it goes to.
+struct Plot {
+  std::string file;
+  Chart chart;
+};
+
+/// For every swept number, dilated voxels and off-site vertices over it: a line for each
+/// combination of the other swept options, or for a dozen of them, as the title then says. Source:
+/// Figures 11, 13 and 15.
+std::vector<Plot> plots(const SweepPlan& plan, const std::map<std::size_t, Json>& rows,
+                        std::string_view tree);
+
+/// The files that `plots` would name.
+std::vector<std::string> plot_files(const SweepPlan& plan);
+
+}  // namespace leafhull

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cstdio>
+
+#include "leafhull/series.h"
+#include "leafhull/sweep.h"
+
+namespace leafhull {
+namespace {
+
+constexpr double kCoverages[] = {0.85, 0.92, 0.98};
+constexpr double kRadii[] = {1.5, 2.5, 4};  // crown units
+constexpr int kPictureWidth = 320, kPictureHeight = 320;
+
+std::string label(const Suggestion& choice) {
+  char text[80];
+  std::snprintf(text, sizeof text, "coverage %g, R_max %g", choice.coverage, choice.radius_max);
+  return text;
+}
+
+Box frame_of(const LeafSet& leaves) {
+  const double radius = kRadii[2] * leaves.bounds.longest_side() / kCrownUnits;
+  const Vec3d margin{radius, radius, radius};
+  return {leaves.bounds.low - margin, leaves.bounds.high + margin};
+}
+
+double volume(const Box& box) { return box.size().x * box.size().y * box.size().z; }
+
+}  // namespace
+
+Suggestions suggest(const LeafSet& leaves, const Options& options, Device& device,
+                    std::string_view title, const Progress& progress) {
+  Suggestions result;
+  std::vector<Options> all;
+  for (const double coverage : kCoverages) {
+    for (const double radius_max : kRadii) {
+      result.choices.push_back({.coverage = coverage, .radius_max = radius_max});
+      all.push_back(options);
+      all.back().coverage = coverage;
+      all.back().radius_max = radius_max;
+    }
+  }
+
+  std::vector<LabelledPicture> pictures(all.size());
+  const SeriesVisitor visit = [&](std::size_t i, SeriesEntry&& entry) {
+    Suggestion& choice = result.choices[i];
+    choice.empty = entry.empty();
+    choice.report = std::move(entry.report);
+    const double side = choice.report.voxel_size;
+    const auto voxels = static_cast<double>(choice.report.metrics.dilated_voxels);
+    choice.dilated_volume = voxels * side * side * side;
+    choice.dilated_share = choice.dilated_volume / volume(leaves.bounds);
+    pictures[i].picture = draw_shape(entry.mesh, frame_of(leaves), kPictureWidth, kPictureHeight);
+    pictures[i].lines = {label(choice)};
+    if (choice.empty) pictures[i].lines.emplace_back("no surface");
+    return true;
+  };
+  extract_series(leaves, all, device, visit, progress);
+  result.strip = contact_sheet(title, pictures, static_cast<int>(std::size(kRadii)));
+  return result;
+}
+
+}  // namespace leafhull

@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: Apache-2.0
+// A sweep: the folder, what is done of it, and the rest.
+#include "leafhull/sweep.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <fstream>
+#include <iterator>
+#include <system_error>
+
+#include "leafhull/error.h"
+#include "leafhull/series.h"
+#include "output/write_error.h"
+#include "sweep/journal.h"
+#include "sweep/plan.h"
+#include "sweep/plots.h"
+#include "sweep/sheets.h"
+#include "sweep/tables.h"
+
+namespace leafhull {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kPictureWidth = 320, kPictureHeight = 320;
+
+/// The names in a sweep's folder.
+struct Files {
+  fs::path folder;
+  fs::path journal() const { return folder / "sweep.jsonl"; }
+  fs::path csv() const { return folder / "sweep.csv"; }
+  fs::path json() const { return folder / "sweep.json"; }
+  fs::path pictures() const { return folder / "pictures"; }
+};
+
+void make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) throw write_error(folder, error.value());
+}
+
+void write_picture(const fs::path& file, const Picture& picture) {
+  const std::vector<std::uint8_t> png = encode_png(picture);
+  write_file(file, {reinterpret_cast<const char*>(png.data()), png.size()});
+}
+
+Picture read_picture(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  const std::vector<char> bytes{std::istreambuf_iterator<char>(stream), {}};
+  try {
+    return decode_png({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
+  } catch (const Error&) {
+    throw Error(ErrorCode::output, file.string() + " cannot be read back",
+                "Remove it and run the same command again.");
+  }
+}
+
+/// Every file that the sweep will have written at its end, but for the journal.
+std::vector<fs::path> results(const Files& files, const SweepPlan& plan) {
+  std::vector<fs::path> all = {files.csv(), files.json()};
+  for (const std::string& plot : plot_files(plan)) all.push_back(files.folder / plot);
+  for (const Sheet& sheet : sheets(plan)) all.push_back(files.folder / sheet.file);
+  for (std::size_t i = 0; i < plan.combinations.size(); ++i) {
+    all.push_back(files.pictures() / picture_name(plan, i));
+  }
+  return all;
+}
+
+/// Where there is no journal, files of a sweep's names are somebody else's.
+void check_nothing_is_lost(const Files& files, const SweepPlan& plan) {
+  for (const fs::path& file : results(files, plan)) {
+    if (!fs::exists(fs::symlink_status(file))) continue;
+    throw Error(ErrorCode::usage, file.string() + " is there already, and not from this sweep",
+                "Name another folder, or give --restart to replace it.");
+  }
+}
+
+bool is_result(const std::string& name) {
+  return name == "sweep.csv" || name == "sweep.json" ||
+         (name.starts_with("plot-") && name.ends_with(".svg")) ||
+         (name.starts_with("contact-sheet") && name.ends_with(".png"));
+}
+
+/// Removes what the sweep of `journal` has written, and nothing else.
+void remove_results(const Files& files, const Journal& journal) {
+  const auto remove = [](const fs::path& file) {
+    std::error_code error;
+    fs::remove(file, error);
+    if (error) throw write_error(file, error.value());
+  };
+  for (const Json& result : journal.header().value("results", Json::array())) {
+    const std::string name = result.is_string() ? result.get<std::string>() : "";
+    if (is_result(name) && name.find('/') == std::string::npos) remove(files.folder / name);
+  }
+  for (const auto& [combination, row] : journal.rows()) {
+    const fs::path name = fs::path(row["picture"].get<std::string>()).filename();
+    if (name.extension() == ".png") remove(files.pictures() / name);
+  }
+}
+
+Json header_of(const Json& identity, const Files& files, const SweepPlan& plan) {
+  Json header = identity;
+  for (const fs::path& result : results(files, plan)) {
+    if (result.parent_path() == files.folder) {
+      header["results"].push_back(result.filename().string());
+    }
+  }
+  return header;
+}
+
+/// The combinations that are still to do: not in the journal, or their pictures are gone.
+std::vector<std::size_t> remaining(const Files& files, const SweepPlan& plan,
+                                   const Journal& journal) {
+  std::vector<std::size_t> todo;
+  for (std::size_t i = 0; i < plan.combinations.size(); ++i) {
+    if (!journal.rows().contains(i) || !fs::exists(files.pictures() / picture_name(plan, i))) {
+      todo.push_back(i);
+    }
+  }
+  return todo;
+}
+
+/// The leaves' bounding box, grown by the largest R_max: every picture is taken from one place.
+Box frame_of(const LeafSet& leaves, const SweepPlan& plan) {
+  double radius = 0;
+  for (const Options& options : plan.combinations) {
+    radius = std::max(radius, radius_max_in_model_units(leaves, options));
+  }
+  const Vec3d margin{radius, radius, radius};
+  return {leaves.bounds.low - margin, leaves.bounds.high + margin};
+}
+
+/// Adds a stage before the total, and to it.
+void add_stage(std::vector<StageTime>& times, const std::string& stage, double seconds) {
+  if (times.empty()) times.push_back({"total", 0});
+  times.back().seconds += seconds;
+  times.insert(times.end() - 1, {stage, seconds});
+}
+
+void add_times(std::vector<StageTime>& sums, const std::vector<StageTime>& times) {
+  if (sums.empty()) sums.push_back({"total", 0});
+  for (const StageTime& time : times) {
+    auto sum = std::find_if(sums.begin(), sums.end(),
+                            [&](const auto& other) { return other.stage == time.stage; });
+    if (sum == sums.end()) sum = sums.insert(sums.end() - 1, {time.stage, 0});
+    sum->seconds += time.seconds;
+  }
+}
+
+/// Extracts what remains; each combination's picture, then its line of the journal.
+std::vector<StageTime> extract_remaining(const LeafSet& leaves, const SweepPlan& plan,
+                                         Device& device, const Files& files, Journal& journal,
+                                         const SweepProgress& progress) {
+  using Clock = std::chrono::steady_clock;
+  const std::vector<std::size_t> todo = remaining(files, plan, journal);
+  std::vector<Options> options;
+  for (const std::size_t i : todo) options.push_back(plan.combinations[i]);
+  const Box frame = frame_of(leaves, plan);
+  std::vector<StageTime> sums;
+  std::size_t done = plan.combinations.size() - todo.size();
+  const auto tell = [&](std::string_view stage) {
+    if (progress) progress(stage, done, plan.combinations.size());
+  };
+  tell("start");
+  const SeriesVisitor visit = [&](std::size_t index, SeriesEntry&& entry) {
+    tell("picture");
+    const Clock::time_point begin = Clock::now();
+    const std::string name = picture_name(plan, todo[index]);
+    write_picture(files.pictures() / name,
+                  draw_shape(entry.mesh, frame, kPictureWidth, kPictureHeight));
+    const std::chrono::duration<double> seconds = Clock::now() - begin;
+    add_stage(entry.report.seconds, "picture", seconds.count());
+    add_times(sums, entry.report.seconds);
+    journal.append(row_of(todo[index], "pictures/" + name, entry.report, entry.empty()));
+    ++done;
+    tell("picture");
+    return true;
+  };
+  extract_series(leaves, options, device, visit,
+                 [&](std::string_view stage, double) { tell(stage); });
+  return sums;
+}
+
+void write_sheets(const Files& files, const SweepPlan& plan, const Journal& journal,
+                  const std::string& tree) {
+  const std::vector<Sheet> pages = sheets(plan);
+  for (std::size_t page = 0; page < pages.size(); ++page) {
+    const Sheet& sheet = pages[page];
+    std::vector<LabelledPicture> pictures;
+    for (std::size_t i = sheet.begin; i < sheet.end; ++i) {
+      std::vector<std::string> lines = labels(plan, i);
+      if (journal.rows().at(i)["empty"]) lines.emplace_back("no surface");
+      pictures.push_back({read_picture(files.pictures() / picture_name(plan, i)), lines});
+    }
+    std::string title = sheet_title(plan, tree);
+    if (pages.size() > 1) {
+      title += " (" + std::to_string(page + 1) + " of " + std::to_string(pages.size()) + ")";
+    }
+    write_picture(files.folder / sheet.file, contact_sheet(title, pictures, sheet_columns(plan)));
+  }
+}
+
+}  // namespace
+
+void check_sweep_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::path existing = fs::absolute(folder, error);
+  while (!error && !fs::exists(existing, error) && existing.has_relative_path()) {
+    existing = existing.parent_path();
+  }
+  if (error) throw write_error(folder, error.value());
+  if (!fs::is_directory(existing)) {
+    throw Error(ErrorCode::output,
+                "cannot write into " + folder.string() + ": " + existing.string() + " is a file",
+                "Name a folder.");
+  }
+  if (::faccessat(AT_FDCWD, existing.c_str(), W_OK | X_OK, AT_EACCESS) != 0) {
+    throw write_error(folder, errno);
+  }
+}
+
+SweepSummary run_sweep(const LeafSet& leaves, const SweepPlan& plan, Device& device,
+                       const SweepFolder& folder, const RunDescription& run,
+                       const SweepProgress& progress) {
+  const Files files{folder.path};
+  const std::string tree = fs::path(run.input).filename().string();
+  const Json header = header_of(identity(leaves, plan, device.info()), files, plan);
+
+  SweepSummary summary;
+  make_folder(files.folder);
+  if (!folder.restart && !fs::exists(files.journal())) check_nothing_is_lost(files, plan);
+  Journal journal(files.journal());
+  if (folder.restart) remove_results(files, journal);
+  if (folder.restart || journal.rows().empty()) journal.begin(header);
+  check_same_sweep(journal.header(), header, files.folder);
+  make_folder(files.pictures());
+  if (!can_draw_charts()) {
+    summary.warnings.emplace_back("no plots are drawn: gnuplot is missing (gnuplot-nox in Debian)");
+  }
+
+  summary.combinations = plan.combinations.size();
+  summary.resumed = summary.combinations - remaining(files, plan, journal).size();
+  summary.seconds = extract_remaining(leaves, plan, device, files, journal, progress);
+
+  write_file(files.csv(), csv(plan, journal.rows()));
+  write_file(files.json(), sweep_json(header, journal.rows(), run));
+  if (can_draw_charts()) {
+    for (const Plot& plot : plots(plan, journal.rows(), tree)) {
+      write_file(files.folder / plot.file, svg(plot.chart));
+    }
+  }
+  write_sheets(files, plan, journal, tree);
+  summary.empty = static_cast<std::size_t>(
+      std::count_if(journal.rows().begin(), journal.rows().end(),
+                    [](const auto& row) { return row.second["empty"] == true; }));
+  return summary;
+}
+
+}  // namespace leafhull

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sweep/tables.h"
+
+#include <algorithm>
+#include <functional>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "output/report.h"
+#include "sweep/plan.h"
+
+namespace leafhull {
+namespace {
+
+/// A column of the table: its head, and a combination's entry.
+struct Column {
+  std::string head;
+  std::function<Json(std::size_t combination, const Json& row)> entry;
+};
+
+std::string key_of(const SweptOption& option) {
+  std::string key(option.row->name);
+  std::replace(key.begin(), key.end(), '-', '_');
+  return key;
+}
+
+std::string cell(const Json& value) {
+  if (value.is_null()) return "";
+  return value.is_string() ? value.get<std::string>() : value.dump();
+}
+
+/// The keys that any row has in `part`, in the order of their first appearance.
+std::vector<std::string> keys(const std::map<std::size_t, Json>& rows, const char* part) {
+  std::vector<std::string> keys;
+  for (const auto& [combination, row] : rows) {
+    for (const auto& [key, value] : row[part].items()) {
+      if (std::find(keys.begin(), keys.end(), key) == keys.end()) keys.push_back(key);
+    }
+  }
+  return keys;
+}
+
+Column column_of(std::string head, const char* part, const std::string& key) {
+  return {std::move(head),
+          [part, key](std::size_t, const Json& row) { return row[part].value(key, Json()); }};
+}
+
+std::vector<Column> columns(const SweepPlan& plan, const std::map<std::size_t, Json>& rows) {
+  std::vector<Column> columns;
+  std::vector<std::string> taken = {"leaves", "ellipse", "threshold"};
+  for (std::size_t i = 0; i < plan.swept.size(); ++i) {
+    taken.push_back(key_of(plan.swept[i]));
+    columns.push_back({taken.back(), [&plan, i](std::size_t combination, const Json&) {
+                         return Json(values_of(plan, combination)[i]);
+                       }});
+  }
+  columns.push_back(column_of("T", "parameters", "threshold"));
+  for (const char* part : {"metrics", "counts"}) {
+    for (const std::string& key : keys(rows, part)) columns.push_back(column_of(key, part, key));
+  }
+  for (const std::string& key : keys(rows, "density")) {
+    columns.push_back(column_of("density_" + key, "density", key));
+  }
+  for (const std::string& key : keys(rows, "parameters")) {
+    if (std::find(taken.begin(), taken.end(), key) == taken.end()) {
+      columns.push_back(column_of(key, "parameters", key));
+    }
+  }
+  for (const std::string& key : keys(rows, "seconds")) {
+    columns.push_back(column_of("seconds_" + key, "seconds", key));
+  }
+  for (const char* key : {"empty", "picture"}) {
+    columns.push_back({key, [key](std::size_t, const Json& row) { return row[key]; }});
+  }
+  return columns;
+}
+
+}  // namespace
+
+Json row_of(std::size_t combination, const std::string& picture, const Report& report, bool empty) {
+  Json whole = report_object(report, {});
+  Json row = {{"row", combination}, {"picture", picture}, {"empty", empty}};
+  for (const char* part : {"parameters", "metrics", "counts", "density", "seconds"}) {
+    row[part] = std::move(whole[part]);
+  }
+  // What was evaluated served several combinations, others where the sweep was cut off.
+  row["counts"].erase("evaluated_voxels");
+  row["counts"].erase("evaluated_pairs");
+  return row;
+}
+
+std::string csv(const SweepPlan& plan, const std::map<std::size_t, Json>& rows) {
+  const std::vector<Column> table = columns(plan, rows);
+  std::string text;
+  for (const Column& column : table) text += (text.empty() ? "" : ",") + column.head;
+  for (const auto& [combination, row] : rows) {
+    text += "\n";
+    for (const Column& column : table) {
+      if (&column != table.data()) text += ",";
+      text += cell(column.entry(combination, row));
+    }
+  }
+  return text + "\n";
+}
+
+std::string sweep_json(const Json& identity, const std::map<std::size_t, Json>& rows,
+                       const RunDescription& run) {
+  Json json = {{"schema", "leafhull-sweep/1"},
+               {"version", identity["version"]},
+               {"input", run.input},
+               {"command", run.command},
+               {"device", identity["device"]},
+               {"swept", identity["swept"]},
+               {"options", identity["options"]},
+               {"rows", Json::array()}};
+  for (const auto& [combination, row] : rows) {
+    json["rows"].push_back(row);
+    json["rows"].back().erase("row");
+  }
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace leafhull

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "leafhull/sweep.h"
+
+namespace leafhull {
+
+using Json = nlohmann::ordered_json;
+
+/// A combination's line of the journal: parameters, counts, density, metrics and seconds as in a
+/// report.
+Json row_of(std::size_t combination, const std::string& picture, const Report& report, bool empty);
+
+/// sweep.csv: a line per combination, the swept options first.
+std::string csv(const SweepPlan& plan, const std::map<std::size_t, Json>& rows);
+
+/// sweep.json, schema "leafhull-sweep/1". `identity` says which sweep it is.
+std::string sweep_json(const Json& identity, const std::map<std::size_t, Json>& rows,
+                       const RunDescription& run);
+
+}  // namespace leafhull
