@@ -40,6 +40,7 @@ std::string without(std::string text, const std::string& begin, const std::strin
 std::string text_of(std::string page) {
   page = without(std::move(page), "<script", "</script>");
   page = without(std::move(page), "<style", "</style>");
+  page = std::regex_replace(page, std::regex("</t[dh]>"), " ");
   page = without(std::move(page), "<", ">");
   return std::regex_replace(page, std::regex("\\s+"), " ");
 }
