@@ -18,22 +18,23 @@ namespace leafhull::cli {
 struct Arguments {
   std::vector<std::string> command;  ///< the words as typed
   std::filesystem::path tree;
-  std::vector<std::filesystem::path> trees;  ///< of a verb that takes several
   Options options;
   std::set<std::string_view> given;  ///< names of the rows of option_table() that were typed
   std::string typed;                 ///< the options again, quoted for a shell
   OutputFiles files;
-  std::filesystem::path folder;
   DeviceOptions device;
   bool quiet = false, verbose = false;
   bool json = false;
 
   // sweep
   std::vector<SweptOption> swept;  ///< more than one value each
-  SweepFolder folder;
-  bool yes = false;
+  bool yes = false, restart = false;
 
   std::filesystem::path picture;  ///< suggest
+
+  // study
+  std::vector<std::filesystem::path> trees;
+  std::filesystem::path report_folder;
 };
 
 }  // namespace leafhull::cli

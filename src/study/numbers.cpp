@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 
 namespace leafhull {
 namespace {
@@ -25,8 +24,12 @@ std::string grouped(std::uint64_t count) {
   return text;
 }
 
-std::string gained(std::int64_t count) {
-  return (count < 0 ? "-" : "+") + grouped(static_cast<std::uint64_t>(std::abs(count)));
+std::string gained(double count) {
+  const double size = std::fabs(count);
+  const bool whole = size >= 10 || size == std::floor(size);
+  const std::string text =
+      whole ? grouped(static_cast<std::uint64_t>(std::llround(size))) : fixed(size, 1);
+  return (count < 0 ? "-" : "+") + text;
 }
 
 std::string shortest(double value) { return print("%.*g", 4, value); }

@@ -90,7 +90,7 @@ std::array<Strip, 4> strips(const ReadingStudy& study) {
            {&TreeStudy::figure14, shown(study.figure13),
             [](Row row) { return "R_max = " + fixed(row.radius_max, 1); }},
            {&TreeStudy::figure16, shown(study.figure15),
-            [](Row row) { return "lambda_R = " + fixed(row.flatness, 1); }}}};
+            [](Row row) { return "λ_R = " + fixed(row.flatness, 1); }}}};
 }
 
 /// Fills the pictures, all taken from one place, and the meshes.

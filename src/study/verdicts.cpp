@@ -100,17 +100,20 @@ std::optional<double> position(const ReadingStudy& study, const Count& count) {
 }
 
 Finding intermediate(const ReadingStudy& study) {
+  if (std::string why = without_surface(study.table1); !why.empty()) {
+    return leave_open(std::move(why));
+  }
   std::string figures;
   bool between = true, known = true;
   for (const Count& count : {kDilated, kOffSite}) {
-    if (std::string why = without_surface(study.table1); !why.empty()) {
-      return leave_open(std::move(why));
-    }
     const std::optional<double> at = position(study, count);
     known &= at.has_value();
     between &= !at || (*at > 0 && *at < 1);
     figures += (figures.empty() ? "" : ", ") +
                (at ? percent(*at) : "L&D and UNCTRLED are the same") + " in " + count.name;
+  }
+  for (const StudyRow& row : study.table1) {
+    if (row.empty) figures += ", " + std::string(paper_name(row.method)) + " having no surface";
   }
   return between && !known ? leave_open(figures) : decide(between, figures);
 }
@@ -182,16 +185,16 @@ Finding radius_and_dilated(const ReadingStudy& study) {
 }
 
 /// What the off-site vertices gain from the first row to the last.
-std::int64_t growth(const Series& series) {
-  return static_cast<std::int64_t>(kOffSite.of(series.rows.back()) -
-                                   kOffSite.of(series.rows.front()));
+double growth(const Series& series) {
+  return static_cast<double>(kOffSite.of(series.rows.back())) -
+         static_cast<double>(kOffSite.of(series.rows.front()));
 }
 
 /// The same for each percent by which the parameter grows, of the middle of its range.
-std::int64_t growth_per_percent(const Series& series) {
+double growth_per_percent(const Series& series) {
   const double middle = (series.first() + series.last()) / 2;
   const double percents = 100 * (series.last() - series.first()) / middle;
-  return std::llround(static_cast<double>(growth(series)) / percents);
+  return static_cast<double>(growth(series)) / percents;
 }
 
 Finding radius_and_off_site(const ReadingStudy& study) {
@@ -258,13 +261,13 @@ constexpr Claim kClaims[] = {
      "Table 1: from L&D (0%) to UNCTRLED (100%) CTRLED lies above 0% and below 100%, in dilated "
      "voxels and in off-site vertices.",
      intermediate},
-    {"3a", "Raising T makes dilated voxels fewer.",
+    {"3a", "Raising T gives fewer dilated voxels.",
      "Figure 11: they never rise from one T to the next, and the last are fewer than the first.",
      threshold_and_dilated},
-    {"3b", "Raising T makes off-site vertices more.",
+    {"3b", "Raising T gives more off-site vertices.",
      "Figure 11: they never fall from one T to the next, and the last are more than the first.",
      threshold_and_off_site},
-    {"4a", "Raising R_max makes dilated voxels more.",
+    {"4a", "Raising R_max gives more dilated voxels.",
      "Figure 13: they never fall from one R_max to the next, and the last are more than the first.",
      radius_and_dilated},
     {"4b", "Raising R_max adds fewer off-site vertices than raising T does.",
@@ -272,11 +275,11 @@ constexpr Claim kClaims[] = {
      "than in T; a fall is less than any growth. The ranges are not of one width, hence the growth "
      "for each percent beside it, which does not decide.",
      radius_and_off_site},
-    {"5a", "Lowering lambda_R makes off-site vertices more.",
+    {"5a", "Lowering lambda_R gives more off-site vertices.",
      "Figure 15: they never fall from one lambda_R to the next lower one, and the last are more "
      "than the first.",
      flatness_and_off_site},
-    {"5b", "Lowering lambda_R changes dilated voxels little.",
+    {"5b", "Lowering lambda_R changes the dilated voxels little.",
      "Figure 15: the fewest and the most are at most 10% of the most apart. The paper says \"does "
      "not dramatically change\"; the 10% is ours.",
      flatness_and_dilated},
