@@ -34,7 +34,7 @@ struct Arguments {
 
   // study
   std::vector<std::filesystem::path> trees;
-  std::filesystem::path report_folder;
+  std::filesystem::path folder;
 };
 
 }  // namespace leafhull::cli
