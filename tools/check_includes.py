@@ -50,9 +50,10 @@ LIBRARIES = {
     "tinyobjloader": ("tiny_obj_loader.h",),
 }
 
-# Of POSIX and the C library, for files, signals, memory and shared libraries.
+# Of POSIX and the C library, for files, processes, signals, memory and shared libraries.
 SYSTEM = (
-    "sys/", "dlfcn.h", "fcntl.h", "fnmatch.h", "malloc.h", "poll.h", "signal.h", "unistd.h",
+    "sys/", "dlfcn.h", "fcntl.h", "fnmatch.h", "malloc.h", "poll.h", "signal.h", "spawn.h",
+    "unistd.h",
 )
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]', re.MULTILINE)

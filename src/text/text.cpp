@@ -48,6 +48,20 @@ std::u32string decode_utf8(std::string_view text) {
   return characters;
 }
 
+void append_utf8(char32_t character, std::string& text) {
+  const auto add = [&](char32_t byte) { text += static_cast<char>(byte); };
+  if (character < 0x80) return add(character);
+  if (character >= 0x10000) {
+    add(0xF0 | character >> 18), add(0x80 | (character >> 12 & 0x3F));
+  } else if (character >= 0x800) {
+    add(0xE0 | character >> 12);
+  } else {
+    add(0xC0 | character >> 6);
+  }
+  if (character >= 0x800) add(0x80 | (character >> 6 & 0x3F));
+  add(0x80 | (character & 0x3F));
+}
+
 std::vector<TextRun> split_subscripts(std::string_view label) {
   const std::u32string text = decode_utf8(label);
   std::vector<TextRun> runs{{}};

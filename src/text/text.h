@@ -16,6 +16,8 @@ struct TextRun {
 /// Characters that can be drawn: what is not UTF-8 becomes U+FFFD, a control character a space.
 std::u32string decode_utf8(std::string_view text);
 
+void append_utf8(char32_t character, std::string& text);
+
 /// The parts of a label. An underscore after a word of one letter makes the rest of the word its
 /// subscript: R_max, but not birch_2.
 std::vector<TextRun> split_subscripts(std::string_view label);
