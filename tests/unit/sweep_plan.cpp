@@ -127,10 +127,10 @@ TEST(SweepPlan, PlotsSayHowManyLinesTheyLeaveOut) {
   sweep.combinations.assign(80, sweep.combinations[0]);
   const Chart chart = plots(sweep, rows_of(sweep), "tree.glb").at(1).chart;
   const auto& lines = chart.panels[0].lines;
-  EXPECT_EQ(lines.size(), 12u);
+  EXPECT_EQ(lines.size(), 6u);
   EXPECT_EQ(lines.front().name, "radius-max 1");
   EXPECT_EQ(lines.back().name, "radius-max 40");
-  EXPECT_NE(chart.title.find("12 of 40 lines"), std::string::npos) << chart.title;
+  EXPECT_NE(chart.title.find("6 of 40 lines"), std::string::npos) << chart.title;
 }
 
 TEST(SweepPlan, SheetsHoldEveryCombinationOnce) {
@@ -140,7 +140,8 @@ TEST(SweepPlan, SheetsHoldEveryCombinationOnce) {
     std::size_t next = 0;
     for (const Sheet& page : pages) {
       EXPECT_EQ(page.begin, next);
-      EXPECT_LE(page.end - page.begin, 100u);
+      EXPECT_LT(page.begin, page.end);
+      EXPECT_LE(page.end - page.begin, 80u);
       next = page.end;
     }
     EXPECT_EQ(next, sweep.combinations.size());
