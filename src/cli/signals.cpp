@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <csignal>
 
 #include "cli/console.h"
@@ -13,9 +14,9 @@
 namespace leafhull::cli {
 namespace {
 
-/// Written before the handlers are there, and read by them.
 std::array<char, 4096> words;
-std::size_t words_size = 0;
+std::atomic<std::size_t> words_size = 0;
+static_assert(std::atomic<std::size_t>::is_always_lock_free);
 
 extern "C" void clean_up_and_die(int signal) {
   discard_unfinished_outputs();
@@ -28,8 +29,9 @@ extern "C" void clean_up_and_die(int signal) {
 }  // namespace
 
 void catch_signals(std::string_view last_words) {
-  words_size = std::min(last_words.size(), words.size());
-  std::copy_n(last_words.begin(), words_size, words.begin());
+  const std::size_t size = std::min(last_words.size(), words.size());
+  std::copy_n(last_words.begin(), size, words.begin());
+  words_size = size;
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     // What the parent has ignored (nohup, a background job) stays ignored.
     if (std::signal(signal, clean_up_and_die) == SIG_IGN) std::signal(signal, SIG_IGN);

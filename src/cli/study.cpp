@@ -31,11 +31,11 @@ std::vector<Flag> folder_flags() {
            .value = "FOLDER",
            .group = "Output",
            .help = "where report.html and study.json go; made where it is missing",
-           .set = [](Arguments& a, const std::string& text) { a.report_folder = text; }}};
+           .set = [](Arguments& a, const std::string& text) { a.folder = text; }}};
 }
 
 void check_arguments(const Arguments& arguments) {
-  if (arguments.report_folder.empty()) {
+  if (arguments.folder.empty()) {
     throw Error(ErrorCode::usage, "no folder for the report is given", "Give one: -o study/.");
   }
   const std::vector<fs::path>& trees = arguments.trees;
@@ -48,7 +48,7 @@ void check_arguments(const Arguments& arguments) {
       throw Error(ErrorCode::usage, tree->string() + " is given twice", "Give each tree once.");
     }
   }
-  check_output_folder(arguments.report_folder);
+  check_output_folder(arguments.folder);
 }
 
 /// What the report calls the trees: their files' stems, numbered where two are the same.
@@ -68,7 +68,7 @@ std::vector<std::string> names_of(const std::vector<fs::path>& trees) {
 /// nobody's business.
 std::vector<std::string> without_folders(const Arguments& arguments) {
   std::vector<fs::path> paths = arguments.trees;
-  paths.push_back(arguments.report_folder);
+  paths.push_back(arguments.folder);
   std::vector<std::string> words = {"leafhull"};
   for (std::string word : std::span(arguments.command).subspan(1)) {
     for (const fs::path& path : paths) {
@@ -170,10 +170,10 @@ void run_study(const Arguments& arguments) {
   study.command = without_folders(arguments);
   study.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
   console.progress("write", 0);
-  write_study(study, arguments.report_folder);
+  write_study(study, arguments.folder);
   clear_progress();
   for (const TreeStudy& tree : study.trees) print_verdicts(tree);
-  console.say("leafhull: " + (arguments.report_folder / "report.html").string() + " in " +
+  console.say("leafhull: " + (arguments.folder / "report.html").string() + " in " +
               seconds(study.seconds));
 }
 

@@ -36,6 +36,7 @@ void print_table(const Arguments& arguments, const std::vector<Suggestion>& choi
             << "\n"
                "coverage        how much of the leaf vertices lies inside: lower is looser\n"
                "R_max           in crown units, 1/64 of the crown: larger is rounder\n"
+               "                (what extract takes unasked: coverage 0.92, R_max 2.5)\n"
                "dilated volume  what the shape fills beyond the leaves, model units cubed, and as\n"
                "                a share of the leaves' bounding box\n"
                "\nTry\n";

@@ -15,7 +15,7 @@ std::size_t width(std::string_view text) {
 }
 
 bool is_number(std::string_view text) {
-  return !text.empty() && text.find_first_not_of("0123456789,.") == std::string_view::npos;
+  return !text.empty() && text.find_first_not_of("0123456789,.%") == std::string_view::npos;
 }
 
 }  // namespace

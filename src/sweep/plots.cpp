@@ -14,7 +14,8 @@
 namespace leafhull {
 namespace {
 
-constexpr std::size_t kMostLines = 12;
+/// More lines than this are too many to tell apart; then so few are drawn that it is easy.
+constexpr std::size_t kMostLines = 12, kFewLines = 6;
 
 double number(std::string_view text) {
   double value = 0;
@@ -37,8 +38,8 @@ std::vector<std::string_view> some_of(const std::vector<std::string>& values, st
 
 using Values = std::vector<std::vector<std::string_view>>;
 
-/// The values of every option that are drawn: all of the one along the axis, and of the others so
-/// many that there are no more lines than kMostLines.
+/// The values of every option that are drawn: all of the one along the axis, and of the others all
+/// or some.
 Values drawn_values(const SweepPlan& plan, std::size_t axis) {
   std::vector<std::size_t> counts;
   for (const SweptOption& option : plan.swept) counts.push_back(option.values.size());
@@ -46,7 +47,9 @@ Values drawn_values(const SweepPlan& plan, std::size_t axis) {
   const auto lines = [&] {
     return std::accumulate(counts.begin(), counts.end(), std::size_t{1}, std::multiplies<>());
   };
-  while (lines() > kMostLines) --*std::max_element(counts.begin(), counts.end());
+  if (lines() > kMostLines) {
+    while (lines() > kFewLines) --*std::max_element(counts.begin(), counts.end());
+  }
   counts[axis] = along;
   Values values;
   for (std::size_t i = 0; i < counts.size(); ++i) {

@@ -21,8 +21,8 @@ struct Plot {
 };
 
 /// For every swept number, dilated voxels and off-site vertices over it: a line for each
-/// combination of the other swept options, or for a dozen of them, as the title then says. Source:
-/// Figures 11, 13 and 15.
+/// combination of the other swept options, or for some where there are more than a dozen, as the
+/// title then says. Source: Figures 11, 13 and 15.
 std::vector<Plot> plots(const SweepPlan& plan, const std::map<std::size_t, Json>& rows,
                         std::string_view tree);
 

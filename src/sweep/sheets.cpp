@@ -10,7 +10,9 @@ namespace leafhull {
 namespace {
 
 constexpr std::size_t kMostColumns = 10;
-constexpr std::size_t kMostPerSheet = 100;
+constexpr std::size_t kMostPerSheet = 80;
+
+std::size_t quotient_up(std::size_t a, std::size_t b) { return (a + b - 1) / b; }
 
 std::string listed(const SweptOption& option) {
   constexpr std::size_t kMost = 4;
@@ -29,15 +31,17 @@ std::string listed(const SweptOption& option) {
 std::vector<Sheet> sheets(const SweepPlan& plan) {
   const auto columns = static_cast<std::size_t>(sheet_columns(plan));
   const std::size_t all = plan.combinations.size();
-  const std::size_t each = kMostPerSheet / columns * columns;
-  const std::size_t count = (all + each - 1) / each;
+  const std::size_t rows = quotient_up(all, columns);
+  const std::size_t count = quotient_up(rows, kMostPerSheet / columns);
+  const std::size_t each = quotient_up(rows, count) * columns;
   if (count == 1) return {{"contact-sheet.png", 0, all}};
   std::vector<Sheet> sheets;
   const std::size_t width = std::to_string(count).size();
   for (std::size_t i = 0; i < count; ++i) {
     std::string number = std::to_string(i + 1);
     number.insert(0, width - number.size(), '0');
-    sheets.push_back({"contact-sheet-" + number + ".png", i * each, std::min(all, (i + 1) * each)});
+    sheets.push_back({"contact-sheet-" + number + ".png", std::min(all, i * each),
+                      std::min(all, (i + 1) * each)});
   }
   return sheets;
 }

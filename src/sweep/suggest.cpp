@@ -11,10 +11,13 @@ constexpr double kCoverages[] = {0.85, 0.92, 0.98};
 constexpr double kRadii[] = {1.5, 2.5, 4};  // crown units
 constexpr int kPictureWidth = 320, kPictureHeight = 320;
 
-std::string label(const Suggestion& choice) {
+std::vector<std::string> label(const Suggestion& choice) {
   char text[80];
   std::snprintf(text, sizeof text, "coverage %g, R_max %g", choice.coverage, choice.radius_max);
-  return text;
+  const std::uint64_t components = choice.report.counts.components;
+  return {text, choice.empty      ? "no surface"
+                : components == 1 ? "1 component"
+                                  : std::to_string(components) + " components"};
 }
 
 Box frame_of(const LeafSet& leaves) {
@@ -50,8 +53,7 @@ Suggestions suggest(const LeafSet& leaves, const Options& options, Device& devic
     choice.dilated_volume = voxels * side * side * side;
     choice.dilated_share = choice.dilated_volume / volume(leaves.bounds);
     pictures[i].picture = draw_shape(entry.mesh, frame_of(leaves), kPictureWidth, kPictureHeight);
-    pictures[i].lines = {label(choice)};
-    if (choice.empty) pictures[i].lines.emplace_back("no surface");
+    pictures[i].lines = label(choice);
     return true;
   };
   extract_series(leaves, all, device, visit, progress);

@@ -10,6 +10,7 @@
 #include <chrono>
 #include <fstream>
 #include <iterator>
+#include <set>
 #include <system_error>
 
 #include "leafhull/error.h"
@@ -41,6 +42,12 @@ void make_folder(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) throw write_error(folder, error.value());
+}
+
+void remove_file(const fs::path& file) {
+  std::error_code error;
+  fs::remove(file, error);
+  if (error) throw write_error(file, error.value());
 }
 
 void write_picture(const fs::path& file, const Picture& picture) {
@@ -79,6 +86,20 @@ void check_nothing_is_lost(const Files& files, const SweepPlan& plan) {
   }
 }
 
+/// Removes what a killed run was writing: .NAME.PID-COUNT.tmp beside NAME.
+void remove_unfinished(const Files& files, const SweepPlan& plan) {
+  std::set<fs::path> ours;
+  for (const fs::path& file : results(files, plan)) ours.insert(file);
+  for (const fs::path& folder : {files.folder, files.pictures()}) {
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+      const fs::path name = entry.path().filename();
+      const std::string beside = name.stem().stem().string();  // .NAME
+      if (name.extension() != ".tmp" || !beside.starts_with('.')) continue;
+      if (ours.contains(folder / beside.substr(1))) remove_file(entry.path());
+    }
+  }
+}
+
 bool is_result(const std::string& name) {
   return name == "sweep.csv" || name == "sweep.json" ||
          (name.starts_with("plot-") && name.ends_with(".svg")) ||
@@ -87,18 +108,13 @@ bool is_result(const std::string& name) {
 
 /// Removes what the sweep of `journal` has written, and nothing else.
 void remove_results(const Files& files, const Journal& journal) {
-  const auto remove = [](const fs::path& file) {
-    std::error_code error;
-    fs::remove(file, error);
-    if (error) throw write_error(file, error.value());
-  };
   for (const Json& result : journal.header().value("results", Json::array())) {
     const std::string name = result.is_string() ? result.get<std::string>() : "";
-    if (is_result(name) && name.find('/') == std::string::npos) remove(files.folder / name);
+    if (is_result(name) && name.find('/') == std::string::npos) remove_file(files.folder / name);
   }
   for (const auto& [combination, row] : journal.rows()) {
     const fs::path name = fs::path(row["picture"].get<std::string>()).filename();
-    if (name.extension() == ".png") remove(files.pictures() / name);
+    if (name.extension() == ".png") remove_file(files.pictures() / name);
   }
 }
 
@@ -234,10 +250,11 @@ SweepSummary run_sweep(const LeafSet& leaves, const SweepPlan& plan, Device& dev
   make_folder(files.folder);
   if (!folder.restart && !fs::exists(files.journal())) check_nothing_is_lost(files, plan);
   Journal journal(files.journal());
-  if (folder.restart) remove_results(files, journal);
+  if (folder.restart && !journal.header().is_null()) remove_results(files, journal);
   if (folder.restart || journal.rows().empty()) journal.begin(header);
   check_same_sweep(journal.header(), header, files.folder);
   make_folder(files.pictures());
+  remove_unfinished(files, plan);
   if (!can_draw_charts()) {
     summary.warnings.emplace_back("no plots are drawn: gnuplot is missing (gnuplot-nox in Debian)");
   }
