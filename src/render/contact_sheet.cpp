@@ -37,9 +37,8 @@ struct Layout {
     if (!title_text.empty()) title_height = static_cast<int>(2 * title.size());
   }
 
-  int row_height() const {
-    return picture_height + (lines > 0 ? line_height / 3 + lines * line_height : 0);
-  }
+  int label_top() const { return picture_height + line_height / 3; }
+  int row_height() const { return lines > 0 ? label_top() + lines * line_height : picture_height; }
   int width() const { return 2 * margin + columns * cell + (columns - 1) * gap; }
   int height() const {
     return 2 * margin + title_height + rows * row_height() + std::max(rows - 1, 0) * gap;
@@ -91,7 +90,7 @@ Picture contact_sheet(std::string_view title, std::span<const LabelledPicture> p
     const int left = layout.left(static_cast<int>(i) % layout.columns);
     const int top = layout.top(static_cast<int>(i) / layout.columns);
     render::paste(picture, left + (layout.cell - picture.width) / 2, top, sheet);
-    float baseline = top + layout.picture_height + layout.line_height / 3 + layout.label.size();
+    float baseline = top + layout.label_top() + layout.label.size();
     for (std::size_t line = 0; line < lines.size(); ++line, baseline += layout.line_height) {
       layout.label.draw(lines[line], left + layout.cell / 2.0f, baseline,
                         line == 0 ? render::kInk : render::kQuietInk, sheet);
