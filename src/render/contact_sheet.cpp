@@ -60,10 +60,10 @@ struct Layout {
   explicit Layout(Size size)
       : picture_width(size.width),
         picture_height(size.height),
-        title(std::clamp(size.width / 10.0f, 18.0f, 48.0f)),
-        label(std::clamp(size.width / 15.0f, 12.0f, 32.0f)),
-        gap(static_cast<int>(1.6f * label.size())),
-        margin(static_cast<int>(1.8f * label.size())),
+        title(std::clamp(size.width / 9.0f, 18.0f, 48.0f)),
+        label(std::clamp(size.width / 13.0f, 12.0f, 32.0f)),
+        gap(static_cast<int>(1.2f * label.size())),
+        margin(static_cast<int>(1.5f * label.size())),
         line_height(static_cast<int>(1.35f * label.size())) {}
 };
 

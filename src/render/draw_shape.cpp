@@ -143,7 +143,7 @@ class ShapePainter {
       if (!spots_.holds(x + i, y + j)) continue;
       const std::optional<Hit>& there = spots_(x + i, y + j).hit;
       if (here.has_value() != there.has_value()) return true;
-      if (here && likeness(*here, *there) < 0.3f) return true;
+      if (here && likeness(*here, *there) < 0.1f) return true;
     }
     return false;
   }
