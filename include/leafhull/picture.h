@@ -21,7 +21,8 @@ struct Picture {
 /// A shaded picture of a closed mesh on white, seen from three quarters. Pictures of one `frame`
 /// (model units) and size are taken from the same place and compare. A mesh without vertices is
 /// white paper.
-/// @throws Error internal where the ray tracer does not start.
+/// @throws Error usage: no pixels, or a mesh in a frame without extent; internal: the ray tracer
+/// does not start.
 Picture draw_shape(const Mesh& mesh, const Box& frame, int width, int height);
 
 struct LabelledPicture {
