@@ -195,35 +195,49 @@ class ShapePainter {
   const std::array<Vec2f, kEdgeRays> edge_points_ = sobol_points<kEdgeRays>(3);
 };
 
-std::array<Vec3f, 8> corners(const Box& box, const Placement& placement) {
-  std::array<Vec3f, 8> points;
-  for (int i = 0; i < 8; ++i) {
-    points[i] = placement({i & 1 ? box.high.x : box.low.x, i & 2 ? box.high.y : box.low.y,
-                           i & 4 ? box.high.z : box.low.z});
-  }
-  return points;
-}
-
-Picture draw(const Mesh& mesh, const Box& box, int width, int height) {
+Picture draw(const Mesh& mesh, const Frame& view, const Box& box, int width, int height) {
   const Placement placement{(box.low + box.high) / 2, 1 / box.longest_side()};
   const DeviceHandle embree = open_embree();
   const Scene scene(embree.get(), {make_surface(embree.get(), mesh, placement)}, Build::quick);
-  const Camera camera = frame(corners(box, placement), width / static_cast<float>(height), kMargin);
+  std::vector<Vec3f> points;
+  points.reserve(view.points.size());
+  for (const Vec3d p : view.points) points.push_back(placement(p));
+  const Camera camera = frame(points, width / static_cast<float>(height), kMargin,
+                              static_cast<float>(view.reach * placement.scale));
   return ShapePainter(scene, camera, width, height).picture();
+}
+
+/// The box of what a frame holds.
+Box box_of(const Frame& frame) {
+  Box box;
+  for (const Vec3d p : frame.points) box.include(p);
+  const Vec3d reach{frame.reach, frame.reach, frame.reach};
+  return {box.low - reach, box.high + reach};
 }
 
 }  // namespace
 }  // namespace render
 
-Picture draw_shape(const Mesh& mesh, const Box& frame, int width, int height) {
+Frame frame_of(const LeafSet& leaves, double radius_max) {
+  Frame frame{{}, radius_max};
+  frame.points.reserve(leaves.vertices.size());
+  for (const LeafVertex& leaf : leaves.vertices) {
+    frame.points.push_back(leaf.position);
+    frame.reach = std::max(frame.reach, static_cast<double>(leaf.radius_major));
+  }
+  return frame;
+}
+
+Picture draw_shape(const Mesh& mesh, const Frame& frame, int width, int height) {
   if (width < 1 || height < 1) throw Error(ErrorCode::usage, "a picture has at least one pixel");
   if (mesh.triangles.empty()) {
     return {width, height, std::vector<std::uint8_t>(std::size_t{3} * width * height, 255)};
   }
-  if (!(frame.longest_side() > 0)) {
+  const Box box = render::box_of(frame);
+  if (!(box.longest_side() > 0)) {
     throw Error(ErrorCode::usage, "the frame of a picture has no extent");
   }
-  return render::draw(mesh, frame, width, height);
+  return render::draw(mesh, frame, box, width, height);
 }
 
 }  // namespace leafhull

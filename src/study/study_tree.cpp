@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <chrono>
 #include <functional>
 #include <string>
@@ -102,13 +103,14 @@ void draw(TreeStudy& tree, const LeafSet& leaves, Device& device, Steps& steps) 
   steps.start("pictures");
   const ReadingStudy& own = tree.readings.front();
   std::vector<Mesh> meshes;
-  Box frame = leaves.bounds;
+  double radius_max = 0;
   for (const Strip& strip : strips(own)) {
     for (const StudyRow& row : strip.rows) {
-      const Mesh& mesh = meshes.emplace_back(surface(leaves, row, own.reading, device));
-      for (const Vec3f p : mesh.positions) frame.include(mesh.origin + Vec3d(p));
+      meshes.push_back(surface(leaves, row, own.reading, device));
+      radius_max = std::max(radius_max, row.radius_max);
     }
   }
+  const Frame frame = frame_of(leaves, radius_max * leaves.bounds.longest_side() / kCrownUnits);
   auto mesh = meshes.begin();
   for (const Strip& strip : strips(own)) {
     for (const StudyRow& row : strip.rows) {

@@ -140,14 +140,12 @@ std::vector<std::size_t> remaining(const Files& files, const SweepPlan& plan,
   return todo;
 }
 
-/// The leaves' bounding box, grown by the largest R_max: every picture is taken from one place.
-Box frame_of(const LeafSet& leaves, const SweepPlan& plan) {
+double largest_radius(const LeafSet& leaves, const SweepPlan& plan) {
   double radius = 0;
   for (const Options& options : plan.combinations) {
     radius = std::max(radius, radius_max_in_model_units(leaves, options));
   }
-  const Vec3d margin{radius, radius, radius};
-  return {leaves.bounds.low - margin, leaves.bounds.high + margin};
+  return radius;
 }
 
 /// Adds a stage before the total, and to it.
@@ -175,7 +173,7 @@ std::vector<StageTime> extract_remaining(const LeafSet& leaves, const SweepPlan&
   const std::vector<std::size_t> todo = remaining(files, plan, journal);
   std::vector<Options> options;
   for (const std::size_t i : todo) options.push_back(plan.combinations[i]);
-  const Box frame = frame_of(leaves, plan);
+  const Frame frame = frame_of(leaves, largest_radius(leaves, plan));
   std::vector<StageTime> sums;
   std::size_t done = plan.combinations.size() - todo.size();
   const auto tell = [&](std::string_view stage) {

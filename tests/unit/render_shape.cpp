@@ -38,7 +38,15 @@ Mesh sphere(Vec3f centre, float radius) {
   return mesh;
 }
 
-Box cube(double half) { return {{-half, -half, -half}, {half, half, half}}; }
+/// The corners of a cube.
+Frame cube(double half, Vec3d centre = {}) {
+  Frame frame;
+  for (int i = 0; i < 8; ++i) {
+    const Vec3d corner{i & 4 ? half : -half, i & 2 ? half : -half, i & 1 ? half : -half};
+    frame.points.push_back(centre + corner);
+  }
+  return frame;
+}
 
 TEST(RenderCamera, HoldsTheBoxWithItsMargin) {
   std::vector<Vec3f> corners;
@@ -129,13 +137,21 @@ TEST(RenderShape, OneFrameIsOneCamera) {
   EXPECT_NEAR(2 * (small.right - small.left), large.right - large.left, 3);
 }
 
+TEST(RenderShape, AFrameHoldsBallsAroundItsPoints) {
+  constexpr int kSize = 200, kMargin = 12;
+  const Frame point{{{5, 6, 7}}, 2};
+  const Rectangle ball = ink_of(draw_shape(sphere({5, 6, 7}, 2), point, kSize, kSize));
+  for (const int edge : {ball.left, ball.top, kSize - ball.right, kSize - ball.bottom}) {
+    EXPECT_GT(edge, 0);
+    EXPECT_LT(edge, 2 * kMargin);
+  }
+}
+
 TEST(RenderShape, FarFromTheOriginItIsTheSame) {
   Mesh mesh = sphere({}, 1);
   const Picture near = draw_shape(mesh, cube(1), 60, 60);
   mesh.origin = {4e6, -2e6, 8e6};
-  Box frame = cube(1);
-  frame.low = frame.low + mesh.origin, frame.high = frame.high + mesh.origin;
-  EXPECT_EQ(near.rgb, draw_shape(mesh, frame, 60, 60).rgb);
+  EXPECT_EQ(near.rgb, draw_shape(mesh, cube(1, mesh.origin), 60, 60).rgb);
 }
 
 TEST(RenderShape, IsTheSameWithAnyNumberOfThreads) {
