@@ -263,6 +263,7 @@ SweepSummary run_sweep(const LeafSet& leaves, const SweepPlan& plan, Device& dev
   summary.resumed = summary.combinations - remaining(files, plan, journal).size();
   summary.seconds = extract_remaining(leaves, plan, device, files, journal, progress);
 
+  if (progress) progress("tables", summary.combinations, summary.combinations);
   write_file(files.csv(), csv(plan, journal.rows()));
   write_file(files.json(), sweep_json(header, journal.rows(), run));
   if (can_draw_charts()) {
@@ -270,6 +271,7 @@ SweepSummary run_sweep(const LeafSet& leaves, const SweepPlan& plan, Device& dev
       write_file(files.folder / plot.file, svg(plot.chart));
     }
   }
+  if (progress) progress("sheets", summary.combinations, summary.combinations);
   write_sheets(files, plan, journal, tree);
   for (const auto& [combination, row] : journal.rows()) summary.empty += row["empty"].get<bool>();
   return summary;

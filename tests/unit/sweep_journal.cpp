@@ -62,8 +62,9 @@ TEST_F(SweepJournal, EveryCutLosesAtMostTheLastLine) {
     write(file, whole.substr(0, size));
     Journal journal(file);
     EXPECT_EQ(journal.rows().size(), 2u) << size;
-    journal.append(row(2));
-    EXPECT_EQ(content(file), whole);
+    const Json shorter = {{"row", 2}, {"picture", ""}};
+    journal.append(shorter);
+    EXPECT_EQ(content(file), whole.substr(0, last) + shorter.dump() + "\n");
   }
 }
 
