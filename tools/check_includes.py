@@ -22,6 +22,8 @@ ROOMS = {
     "render": (("text",), ("embree", "stb", "tbb")),
     "chart": (("text",), ()),
     "sweep": (("chart", "output"), ("json",)),
+    "study": ((), ()),
+    "page": (("chart", "output", "study", "text"), ("json", "meshoptimizer", "mustache")),
     "cli": ((), ("cli11", "json")),
     "bench": (
         ("density", "device", "pipeline", "surface"),
@@ -39,6 +41,7 @@ LIBRARIES = {
     "gtest": ("gtest/",),
     "json": ("nlohmann/",),
     "meshoptimizer": ("meshoptimizer.h",),
+    "mustache": ("kainjow/",),
     "opencl": ("CL/",),
     "openvdb": ("openvdb/",),
     "stb": ("stb/", "stb_"),

@@ -30,6 +30,10 @@ struct RunDescription {
 ///         output: a folder that does not exist or cannot be written to.
 void check_outputs(const OutputFiles& files, const std::filesystem::path& input);
 
+/// Looks at a folder for results before any work is done. It need not exist, its parent does.
+/// @throws Error output: it could not be made or written to.
+void check_output_folder(const std::filesystem::path& folder);
+
 /// Writes everything under temporary names, then renames: all files or none. A report's seconds
 /// gain `write`, what the other files took.
 /// @throws Error output: which file and why.

@@ -4,9 +4,8 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
-#include <functional>
-#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "leafhull/device.h"
@@ -33,19 +32,28 @@ struct StudyRow {
   std::uint64_t off_site() const { return metrics.off_site_sampled; }  ///< what Table 1 counts
 };
 
-/// Table 2: seconds at one resolution, the median of several runs.
+/// Table 2: seconds at one resolution, medians of `runs` extractions.
 struct StudyTime {
   int resolution = 0;
+  int runs = 0;
+  bool empty = false;   ///< one of the two has no surface: there are no seconds
   double previous = 0;  ///< L&D: steps 1, 6 and 7 of Figure 8
   double proposed = 0;  ///< CTRLED: steps 1 to 7
+  double control = 0;   ///< of `proposed`, steps 2 to 5
 };
 
-/// One claim of the paper, held against one tree under one reading.
+/// Whether a claim holds; open: the figures have nothing to compare.
+enum class Outcome { holds, fails, open };
+
+std::string_view name(Outcome outcome);  ///< "holds", "fails", "open"
+
+/// One claim of the paper, or half of one, held against one tree under one reading. Plain text.
 struct Verdict {
-  std::string claim;  ///< what is claimed, one sentence
-  std::string test;   ///< when it counts as holding, in terms of the figures
-  bool holds = false;
-  std::string figures;  ///< the numbers that decide
+  std::string number;  ///< "1a"
+  std::string claim;   ///< what is claimed, one sentence
+  std::string test;    ///< when it counts as holding, in terms of the figures
+  Outcome outcome = Outcome::open;
+  std::string figures;  ///< the numbers that decide, or why none do
   std::string paper;    ///< the paper's own numbers; empty where it prints none
 };
 
@@ -59,7 +67,7 @@ struct ReadingStudy {
 };
 
 struct TreeStudy {
-  std::string name;  ///< the file's, without its folder
+  std::string name;  ///< the file's, without folder and extension; no two of a study are the same
   std::uint64_t leaves = 0, leaf_vertices = 0;
   std::vector<ReadingStudy> readings;  ///< the project's own reading first
   /// In the project's own reading: the methods (Table 1), and what T, R_max and lambda_R do
@@ -76,5 +84,31 @@ struct Study {
   std::vector<std::string> command;
   double seconds = 0;
 };
+
+/// What the paper calls a method: "L&D", "UNCTRLED", "CTRLED".
+std::string_view paper_name(Method method);
+
+/// Every reading: k = 1, 2 by stddev, variance by exact, grid; the project's own first.
+std::array<Reading, 8> readings();
+
+/// What the paper prints: Tables 1 and 2. The curves of its Figures 11, 13 and 15 have no numbers,
+/// and T, R_max and lambda_R of its Table 1 are not said: zero. Source: pp. 54-56; the tree has
+/// kPaperLeafVertices leaf vertices, the CPU is an AMD Athlon 64 3200+ of 2.01 GHz.
+const ReadingStudy& paper_results();
+inline constexpr std::uint64_t kPaperLeafVertices = 52648;
+
+/// What `study` says of the paper's claims, from its tables and figures alone.
+std::vector<Verdict> verdicts(const ReadingStudy& study);
+
+/// The paper's evaluation of one tree under every reading: T 2, R_max 1.5 crown units and
+/// lambda_R 0.7 where they do not vary, 64 voxels but for Table 2. Takes tens of seconds.
+/// @throws Error as extract does, but for an empty surface, which is a result.
+TreeStudy study_tree(const LeafSet& leaves, const std::string& name, Device& device,
+                     const Progress& progress = {});
+
+/// Writes report.html and study.json into `folder`, which is made where it is missing: both or
+/// none.
+/// @throws Error output: which file and why.
+void write_study(const Study& study, const std::filesystem::path& folder);
 
 }  // namespace leafhull

@@ -9,20 +9,15 @@
 #include <string_view>
 
 #include "chart/gnuplot.h"
-#include "chart/ticks.h"
+#include "chart/layout.h"
 #include "leafhull/error.h"
 #include "text/text.h"
 
 namespace leafhull {
 namespace {
 
-// Pixels of a chart that is as wide as kWidth. On a telephone it is half as wide: hence large type.
-constexpr double kWidth = 640, kPanelHeight = 210, kMargin = 10, kGap = 28;
-constexpr double kTitleSize = 18, kLabelSize = 16, kTickSize = 15;
-constexpr double kTitleHeight = 36, kLegendRow = 24, kHeadingHeight = 44, kFootHeight = 62;
-constexpr double kCharacter = 0.56;   // of the type's size: its mean width
-constexpr double kSampleLength = 40;  // of a line in the legend
-constexpr int kMarkers = 10;          // on a line of many points, about
+constexpr std::size_t kIntervals = 10;     // between the markers of a line of many points
+constexpr std::size_t kMarkedPoints = 21;  // up to which every point has its marker
 constexpr std::string_view kFonts = "'Open Sans', 'Segoe UI', Helvetica, Arial, sans-serif";
 
 /// How the lines of one name look. Colours of Okabe and Ito, neighbours far apart in lightness;
@@ -64,38 +59,44 @@ std::string quoted(std::string_view label) {
   return text + '\'';
 }
 
-double text_width(std::string_view label, double size) {
-  return static_cast<double>(decode_utf8(label).size()) * kCharacter * size;
+/// The same without subscripts, for `noenhanced`.
+std::string quoted_plain(std::string_view label) {
+  std::string text = "'";
+  for (const char32_t c : decode_utf8(label)) {
+    if (c == U'\'') text += '\'';
+    append_utf8(c, text);
+  }
+  return text + '\'';
 }
 
-/// Composes the script of one chart; lengths are pixels from the top left.
+/// Composes gnuplot's script of one chart.
 class Script {
  public:
   explicit Script(const Chart& chart) : chart_(chart) {
+    std::vector<std::string> names;
     for (const ChartPanel& panel : chart.panels) {
       for (const ChartLine& line : panel.lines) {
-        if (!looks_.contains(line.name)) {
-          names_.push_back(line.name);
-          looks_.emplace(line.name, look_of(looks_.size()));
-        }
+        const bool is_new = looks_.try_emplace(line.name, look_of(looks_.size())).second;
+        if (is_new && !line.name.empty()) names.push_back(line.name);
       }
     }
-    std::erase(names_, "");
-    arrange_legend();
-    height_ = legend_top() + kLegendRow * rows_ + kHeadingHeight + kPanelHeight + kFootHeight;
+    layout_ = lay_out(chart, names);
   }
 
   std::string text() {
     add("set encoding utf8");
-    add("set terminal svg enhanced dynamic size " + number(kWidth) + ',' + number(height_) +
-        " font 'sans-serif," + number(kLabelSize) + "' rounded");
+    add("set terminal svg enhanced dynamic rounded size " + number(kChartWidth) + ',' +
+        number(layout_.height) + " font 'sans-serif," + number(kLabelSize) + '\'');
     add("set multiplot");
     add("unset key; unset border; set tics nomirror scale 0");
-    if (!chart_.title.empty()) {
-      label(chart_.title, kMargin, kMargin + kTitleSize, kTitleSize, "#111111", "left");
+    add("set grid ytics lt 1 lw 1 lc rgb '#E2E2E2'");
+    add_label(layout_.title);
+    for (const ChartText& name : layout_.legend) add_legend(name);
+    for (std::size_t i = 0; i < chart_.panels.size(); ++i) {
+      add_frame(layout_.panels[i]);
+      add_lines(chart_.panels[i]);
+      add("unset label; unset arrow");
     }
-    for (std::size_t i = 0; i < names_.size(); ++i) add_legend(i);
-    for (std::size_t i = 0; i < chart_.panels.size(); ++i) add_panel(i);
     if (chart_.panels.empty()) add("set xrange [0:1]; set yrange [0:1]; unset tics; plot NaN");
     return script_;
   }
@@ -104,99 +105,58 @@ class Script {
   void add(std::string_view line) { (script_ += line) += '\n'; }
 
   std::string at(double x, double y) const {
-    return " screen " + number(x / kWidth) + ", screen " + number(1 - y / height_);
+    return " screen " + across(x) + ", screen " + up(y) + ' ';
+  }
+  static std::string across(double x) { return number(x / kChartWidth); }
+  std::string up(double y) const { return number(1 - y / layout_.height); }
+
+  void add_label(const ChartText& label) {
+    if (label.text.empty()) return;
+    add("set label " + quoted(label.text) + " at" + at(label.x, label.y - 0.3 * label.size) +
+        (label.centred ? "center" : "left") + " tc rgb '#222222' font '," + number(label.size) +
+        '\'');
   }
 
-  void label(std::string_view text, double x, double baseline, double size, std::string_view color,
-             std::string_view align) {
-    add("set label " + quoted(text) + " at" + at(x, baseline - 0.3 * size) + ' ' +
-        std::string(align) + " font '," + number(size) + "' tc rgb '" + std::string(color) + '\'');
+  void add_legend(const ChartText& name) {
+    const Look look = looks_.at(name.text);
+    const double right = name.x - kSampleGap, left = right - kSampleLength,
+                 y = name.y - 0.35 * kLabelSize;
+    add("set arrow from" + at(left, y) + "to" + at(right, y) + "nohead " + stroke(look));
+    add("set label '' at" + at((left + right) / 2, y) + "point " + marker(look));
+    add_label(name);
   }
 
-  /// As many columns as fit, each as wide as its longest name.
-  void arrange_legend() {
-    for (std::size_t count = names_.size(); count > 0; --count) {
-      columns_.assign(count + 1, kMargin);
-      for (std::size_t column = 0; column < count; ++column) {
-        double widest = 0;
-        for (std::size_t i = column; i < names_.size(); i += count) {
-          widest = std::max(widest, text_width(names_[i], kLabelSize));
-        }
-        columns_[column + 1] = columns_[column] + kSampleLength + 8 + widest + kGap;
-      }
-      rows_ = static_cast<int>((names_.size() + count - 1) / count);
-      if (columns_.back() - kGap <= kWidth - kMargin) return;
-    }
-  }
-
-  double legend_top() const { return kMargin + (chart_.title.empty() ? 0 : kTitleHeight); }
-
-  void add_legend(std::size_t i) {
-    const Look look = looks_.at(names_[i]);
-    const std::size_t count = columns_.size() - 1;
-    const double x = columns_[i % count];
-    const double y = legend_top() + kLegendRow * (static_cast<double>(i / count) + 0.5);
-    add("set arrow from" + at(x, y) + " to" + at(x + kSampleLength, y) + " nohead " + stroke(look));
-    add("set label '' at" + at(x + kSampleLength / 2, y) + " point " + marker(look));
-    label(names_[i], x + kSampleLength + 8, y + 0.3 * kLabelSize, kLabelSize, "#222222", "left");
-  }
-
+  static std::string color(const Look& look) { return "lc rgb '" + std::string(look.color) + '\''; }
   static std::string stroke(const Look& look) {
-    return "lw 2 lc rgb '" + std::string(look.color) + "' dt " + std::string(look.dash);
+    return color(look) + " lw 2 dt " + std::string(look.dash);
   }
   static std::string marker(const Look& look) {
-    return "pt " + std::to_string(look.point) + " ps 0.75 lc rgb '" + std::string(look.color) +
-           '\'';
+    return color(look) + " ps 0.75 pt " + std::to_string(look.point);
   }
 
-  void add_panel(std::size_t index) {
-    const ChartPanel& panel = chart_.panels[index];
-    std::vector<double> values, parameters;
-    for (const ChartLine& line : panel.lines)
-      values.insert(values.end(), line.y.begin(), line.y.end());
-    for (const ChartPanel& other : chart_.panels) {
-      for (const ChartLine& line : other.lines) {
-        parameters.insert(parameters.end(), line.x.begin(), line.x.end());
-      }
+  void add_frame(const PanelLayout& panel) {
+    add("set lmargin at screen " + across(panel.left));
+    add("set rmargin at screen " + across(panel.right));
+    add("set tmargin at screen " + up(panel.top));
+    add("set bmargin at screen " + up(panel.bottom));
+    add_label(panel.heading);
+    add_label(panel.foot);
+    add_axis("x", panel.x);
+    add_axis("y", panel.y);
+    const std::string rule = " nohead lw 1 lc rgb '#808080' back";
+    add("set arrow from graph 0, first 0 to graph 1, first 0" + rule);
+    for (const Tick& tick : panel.x.ticks) {
+      add("set arrow from first " + number(tick.value) + ", graph 0 rto 0, graph -0.02" + rule);
     }
-    const Axis y = value_axis(values);
-    double widest = 0;
-    for (const Tick& tick : y.ticks) widest = std::max(widest, text_width(tick.text, kTickSize));
-
-    const double count = static_cast<double>(chart_.panels.size());
-    const double width = (kWidth - 2 * kMargin - (count - 1) * kGap) / count;
-    const double panel_left = kMargin + static_cast<double>(index) * (width + kGap);
-    const double left = panel_left + widest + 8, right = panel_left + width;
-    const double top = legend_top() + kLegendRow * rows_ + kHeadingHeight;
-    const double bottom = top + kPanelHeight;
-    const Axis x = parameter_axis(parameters, (right - left) / (kTickSize * kCharacter));
-
-    add("set lmargin at screen " + number(left / kWidth));
-    add("set rmargin at screen " + number(right / kWidth));
-    add("set tmargin at screen " + number(1 - top / height_));
-    add("set bmargin at screen " + number(1 - bottom / height_));
-    label(panel.y_label, panel_left, top - 18, kLabelSize, "#222222", "left");
-    label(chart_.x_label, (left + right) / 2, bottom + 51, kLabelSize, "#222222", "center");
-    add_axis('x', x);
-    add_axis('y', y);
-    add("set grid ytics lt 1 lw 1 lc rgb '#E2E2E2'");
-    add("set arrow from graph 0, first 0 to graph 1, first 0 nohead lw 1 lc rgb '#808080' back");
-    for (const Tick& tick : x.ticks) {
-      add("set arrow from first " + number(tick.value) +
-          ", graph 0 rto 0, graph -0.02 nohead lw 1 lc rgb '#808080'");
-    }
-    add_lines(panel);
-    add("unset label; unset arrow");
   }
 
-  void add_axis(char name, const Axis& axis) {
+  void add_axis(const std::string& name, const Axis& axis) {
     std::string ticks;
     for (const Tick& tick : axis.ticks) {
       ticks += (ticks.empty() ? "" : ", ") + quoted(tick.text) + ' ' + number(tick.value);
     }
-    add(std::string("set ") + name + "range [" + number(axis.low) + ':' + number(axis.high) + ']');
-    add(std::string("set ") + name + "tics (" + ticks + ") font '," + number(kTickSize) +
-        "' tc rgb '#444444'");
+    add("set " + name + "range [" + number(axis.low) + ':' + number(axis.high) + ']');
+    add("set " + name + "tics (" + ticks + ") tc rgb '#444444' font '," + number(kTickSize) + '\'');
   }
 
   void add_lines(const ChartPanel& panel) {
@@ -208,36 +168,39 @@ class Script {
       add(data + " << end");
       add_points(line);
       add("end");
-      const std::string title = " title " + quoted(line.name);
-      plots += (plots.empty() ? "plot " : ", ") + data + " using 1:2 with lines " + stroke(look) +
-               title + ", " + data + " using 1:3 with points " + marker(look) + title;
+      const std::string title = " title " + quoted_plain(line.name) + " noenhanced";
+      plots += plots.empty() ? "plot " : ", ";
+      plots.append(data).append(" using 1:2 with lines ").append(stroke(look)).append(title);
+      plots.append(", ").append(data).append(" using 1:3 with points ");
+      plots.append(marker(look)).append(title);
     }
     add(plots.empty() ? "plot NaN" : plots);
   }
 
-  /// x, y, and y again where a marker stands: at every so many points, and at those alone between
-  /// gaps.
+  /// x, y, and y again where a marker stands: at points between gaps, and at all or some others.
   void add_points(const ChartLine& line) {
     const std::size_t count = std::min(line.x.size(), line.y.size());
     const auto there = [&](std::size_t i) {
       return i < count && std::isfinite(line.x[i]) && std::isfinite(line.y[i]);
     };
-    const std::size_t every = 1 + count / (2 * kMarkers + 1) * 2;
+    const auto interval = [&](std::size_t i) { return i * kIntervals / (count - 1); };
     for (std::size_t i = 0; i < count; ++i) {
+      if (!there(i)) {
+        add("0 NaN NaN");
+        continue;
+      }
       const bool alone = !there(i - 1) && !there(i + 1);
-      const std::string y = there(i) ? number(line.y[i]) : "NaN";
-      const bool marked = i % every == 0 || alone || i + 1 == count;
-      add((there(i) ? number(line.x[i]) : "0") + ' ' + y + ' ' + (marked ? y : "NaN"));
+      const bool marked =
+          count <= kMarkedPoints || alone || i == 0 || interval(i) > interval(i - 1);
+      const std::string y = number(line.y[i]);
+      add(number(line.x[i]) + ' ' + y + ' ' + (marked ? y : "NaN"));
     }
     if (count == 0) add("0 NaN NaN");
   }
 
   const Chart& chart_;
-  std::vector<std::string> names_;  ///< of the legend
   std::map<std::string, Look> looks_;
-  int rows_ = 0;                 ///< of the legend
-  std::vector<double> columns_;  ///< where they begin, and where the next one would
-  double height_ = 0;
+  ChartLayout layout_;
   std::string script_;
 };
 

@@ -28,10 +28,13 @@ struct Arguments {
 
   // sweep
   std::vector<SweptOption> swept;  ///< more than one value each
-  SweepFolder folder;
-  bool yes = false;
+  bool yes = false, restart = false;
 
   std::filesystem::path picture;  ///< suggest
+
+  // study
+  std::vector<std::filesystem::path> trees;
+  std::filesystem::path folder;
 };
 
 }  // namespace leafhull::cli

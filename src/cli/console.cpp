@@ -58,6 +58,13 @@ void Console::progress(std::string_view stage, double done) {
   draw(stage, done, seconds(since(start_)));
 }
 
+void Console::progress_of_all(std::string_view stage, double done) {
+  const double gone = since(start_);
+  std::string beside = seconds(gone);
+  if (done > 0) beside += ", about " + duration(gone * (1 - done) / done) + " left";
+  draw(stage, done, beside);
+}
+
 void Console::progress(std::string_view stage, std::size_t done, std::size_t all) {
   if (!resumed_) resumed_ = done, resumed_at_ = Clock::now();
   if (Clock::now() - drawn_ < kRedraw) return;  // its stages are too short to follow each

@@ -127,8 +127,12 @@ std::string command_help(std::span<const Verb> verbs) {
 
 std::string verb_help(const Verb& verb) {
   std::string page = std::string(verb.about) + "\n\nUsage\n  leafhull " + std::string(verb.name) +
-                     (verb.takes_tree ? " TREE" : "") + " [options]\n";
-  if (verb.takes_tree) page += "\n" + entry("TREE", "a .glb, .gltf or .obj file");
+                     (verb.takes_tree    ? " TREE"
+                      : verb.takes_trees ? " TREE..."
+                                         : "") +
+                     " [options]\n";
+  if (verb.takes_tree || verb.takes_trees)
+    page += "\n" + entry("TREE", "a .glb, .gltf or .obj file");
   std::string_view group;
   for (const Flag& flag : verb.flags) {
     if (flag.group != group) page += "\n" + std::string(group = flag.group) + "\n";

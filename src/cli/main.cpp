@@ -61,13 +61,14 @@ CLI::App* add_verb(CLI::App& app, const Verb& verb, Arguments& arguments) {
   sub->allow_extras();
   add_flags(*sub, verb.flags, arguments);
   if (verb.takes_tree) sub->add_option("TREE", arguments.tree);
+  if (verb.takes_trees) sub->add_option("TREE", arguments.trees);
   sub->formatter_fn([&verb](auto&&...) { return verb_help(verb); });
   return sub;
 }
 
 void run(const std::vector<std::string>& command) {
-  const std::array verbs = {extract_verb(), inspect_verb(), suggest_verb(),
-                            sweep_verb(),   devices_verb(), help_options_verb()};
+  const std::array verbs = {extract_verb(), inspect_verb(), suggest_verb(),     sweep_verb(),
+                            study_verb(),   devices_verb(), help_options_verb()};
   const std::vector<Flag> flags = help_flags();
   Arguments arguments;
   arguments.command = command;
@@ -103,7 +104,8 @@ void run(const std::vector<std::string>& command) {
                 "Options follow the verb: leafhull " + std::string(verb->name) + " [options].");
   }
   refuse_extras(app.get_subcommand(std::string(verb->name))->remaining(), *verb);
-  if (verb->takes_tree && arguments.tree.empty()) {
+  if ((verb->takes_tree && arguments.tree.empty()) ||
+      (verb->takes_trees && arguments.trees.empty())) {
     throw Error(
         ErrorCode::usage, "no TREE is given",
         "Give a .glb, .gltf or .obj file: leafhull " + std::string(verb->name) + " tree.glb.");

@@ -26,9 +26,9 @@ void check_arguments(const Arguments& arguments) {
   if (arguments.swept.empty()) {
     throw Error(ErrorCode::usage, "no option has several values",
                 "Give one a range or a list, " + example +
-                    (arguments.folder.path.empty() ? "out" : quoted(arguments.folder.path)) + ".");
+                    (arguments.folder.empty() ? "out" : quoted(arguments.folder)) + ".");
   }
-  if (arguments.folder.path.empty()) {
+  if (arguments.folder.empty()) {
     throw Error(ErrorCode::usage, "no folder is named",
                 "Name the one that keeps the sweep, " + example + "out.");
   }
@@ -79,7 +79,7 @@ void say_summary(Console& console, const SweepSummary& summary, const Arguments&
   std::string text = "leafhull: " + count(summary.combinations) + " combinations";
   if (summary.resumed > 0) text += ", " + count(summary.resumed) + " of them from before";
   if (summary.empty > 0) text += ", " + count(summary.empty) + " without a surface";
-  console.say(text + " in " + seconds(elapsed) + ": " + arguments.folder.path.string());
+  console.say(text + " in " + seconds(elapsed) + ": " + arguments.folder.string());
   for (const StageTime& time : summary.seconds) {
     std::string stage = time.stage;
     stage.resize(std::max<std::size_t>(stage.size(), 18), ' ');
@@ -92,8 +92,8 @@ void run_sweep_verb(const Arguments& arguments) {
   Console console(arguments.quiet, arguments.verbose);
   check_arguments(arguments);
   const SweepPlan plan = plan_of(arguments);
-  const std::string folder = arguments.folder.path.string();
-  check_sweep_folder(arguments.folder.path);
+  const std::string folder = arguments.folder.string();
+  check_sweep_folder(arguments.folder);
   catch_signals();
 
   std::future<Device> opening = open_device(arguments.device, first_falloff(plan));
@@ -114,7 +114,7 @@ void run_sweep_verb(const Arguments& arguments) {
 
   bool begun = false;
   const SweepSummary summary = run_sweep(
-      leaves, plan, device, arguments.folder, {arguments.tree.string(), arguments.command},
+      leaves, plan, device, {arguments.folder, arguments.restart}, {arguments.tree.string(), arguments.command},
       [&](std::string_view stage, std::size_t done, std::size_t all) {
         if (!std::exchange(begun, true) && done > 0) {
           console.say("leafhull: resuming: " + count(done) + " of " + count(all) + " done");

@@ -13,6 +13,7 @@ namespace leafhull::cli {
 struct Verb {
   std::string_view name, summary, about, examples;
   bool takes_tree = false;
+  bool takes_trees = false;  ///< one or more
   bool hidden = false;
   std::vector<Flag> flags;
   void (*run)(const Arguments&) = nullptr;
@@ -22,6 +23,7 @@ Verb extract_verb();
 Verb inspect_verb();
 Verb sweep_verb();
 Verb suggest_verb();
+Verb study_verb();
 Verb devices_verb();
 Verb help_options_verb();
 

@@ -7,6 +7,7 @@
 #include <cerrno>
 #include <system_error>
 
+#include "leafhull/output.h"
 #include "output/write_error.h"
 
 namespace leafhull {
@@ -46,6 +47,20 @@ bool may_access(const fs::path& path, int mode) {
 }
 
 }  // namespace
+
+void check_output_folder(const fs::path& name) {
+  const fs::path folder = name.has_filename() ? name : name.parent_path();  // "out/" is "out"
+  std::error_code error;
+  const fs::file_status status = fs::status(folder, error);
+  const bool missing = status.type() == fs::file_type::not_found;
+  if (error && !missing) throw write_error(name, error.value());
+  if (!missing && !fs::is_directory(status)) {
+    throw Error(ErrorCode::output, "cannot write to " + name.string() + ": it is not a folder",
+                "Name a folder.");
+  }
+  const fs::path place = missing ? existing_folder(folder.parent_path(), name) : folder;
+  if (!may_access(place, W_OK | X_OK)) throw write_error(name, errno);
+}
 
 fs::path resolve_destination(const fs::path& name) {
   const fs::path end = follow_links(name);

@@ -17,7 +17,7 @@ Shape extract(const LeafSet& leaves, const Options& asked, Device& device,
 
   stages.prepare(report);
   const Field& field = stages.sample(report, {report.threshold});
-  Polygons polygons = stages.polygonise(field, report);
+  Polygons polygons = stages.polygonise(field, report.options.mesher, report);
   if (polygons.points.empty()) stages.refuse_empty(field, report);
 
   watch.start("snap");

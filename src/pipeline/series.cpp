@@ -60,7 +60,7 @@ bool visit_group(std::span<Entry> group, Stages& stages, Stopwatch& watch,
     Report& report = entry.report;
     const Field field = sampled.at(report.threshold);
     SeriesEntry result;
-    result.mesh = lattice_mesh(stages.polygonise(field, report), field.lattice());
+    result.mesh = lattice_mesh(stages.polygonise(field, Mesher::bricks, report), field.lattice());
     report.counts.mesh_vertices = result.mesh.positions.size();
     report.counts.mesh_triangles = result.mesh.triangles.size();
     stages.measure(field, report);

@@ -128,10 +128,10 @@ const Field& Stages::sample(const Report& prepared, const std::vector<double>& t
   return *sampled_.value.field;
 }
 
-Polygons Stages::polygonise(const Field& field, Report& report) const {
+Polygons Stages::polygonise(const Field& field, Mesher mesher, Report& report) const {
   watch_.start("polygonise");
   const Options& options = report.options;
-  Polygons polygons = options.mesher == Mesher::bricks
+  Polygons polygons = mesher == Mesher::bricks && options.adaptivity == 0
                           ? mesh_bricks(field)
                           : leafhull::polygonise(field, options.adaptivity);
   const ComponentCount components = drop_small_components(polygons, *options.min_component);

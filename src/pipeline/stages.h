@@ -67,8 +67,9 @@ class Stages {
   const Field& sample(const Report& prepared, const std::vector<double>& thresholds);
 
   /// Step 7: the surface of a field that sample() returned, small components dropped, which sets
-  /// their counts. No polygons where no sample reaches T.
-  Polygons polygonise(const Field& field, Report& report) const;
+  /// their counts. No polygons where no sample reaches T. `mesher` is for surfaces without
+  /// adaptivity; both give the same vertices and quads, in orders of their own.
+  Polygons polygonise(const Field& field, Mesher mesher, Report& report) const;
 
   /// The paper's metrics and the counts of a field.
   void measure(const Field& field, Report& report) const;

@@ -144,6 +144,7 @@ TEST(Series, ItsMeshIsTheLatticesSurface) {
   Options options;
   options.preset = Preset::draft;
   options.snap = false;
+  options.mesher = Mesher::bricks;
   const std::vector<Options> series{options};
   const auto entries = entries_of(series);
   const Shape alone = extract(ash(), options, device());

@@ -11,6 +11,7 @@
 
 #include "surface/brick_mesher.h"
 #include "surface/cell_shapes.h"
+#include "surface/components.h"
 #include "unit/surface_test_fields.h"
 
 namespace leafhull {
@@ -198,6 +199,17 @@ TEST(BrickMesher, NoiseIsManifold) {
   }
   EXPECT_EQ(cases.size(), 256u);
   EXPECT_GT(parted, 100);
+}
+
+TEST(BrickMesher, JoinsAndPartsWhatOpenVdbDoes) {
+  const auto counts = [](Polygons polygons) {
+    const std::size_t points = polygons.points.size(), faces = polygons.faces.size();
+    return std::array{points, faces, std::size_t{drop_small_components(polygons, 0).kept}};
+  };
+  for (unsigned seed = 0; seed < 12; ++seed) {
+    const Field field = noise(seed, 0.1 + 0.07 * seed);
+    EXPECT_EQ(counts(mesh_bricks(field)), counts(polygonise(field, 0)));
+  }
 }
 
 TEST(BrickMesher, ProvenBlocksStandForEvaluatedOnes) {

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "leafhull/study.h"
+
+#include <algorithm>
+#include <chrono>
+#include <ctime>
+#include <filesystem>
+#include <fstream>
+#include <future>
+#include <iostream>
+#include <set>
+#include <thread>
+
+#include "cli/console.h"
+#include "cli/signals.h"
+#include "cli/table.h"
+#include "cli/values.h"
+#include "cli/verb.h"
+#include "leafhull/error.h"
+#include "leafhull/output.h"
+#include "leafhull/tree.h"
+#include "leafhull/version.h"
+
+namespace leafhull::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<Flag> folder_flags() {
+  return {{.spelling = "-o,--output",
+           .value = "FOLDER",
+           .group = "Output",
+           .help = "where report.html and study.json go; made where it is missing",
+           .set = [](Arguments& a, const std::string& text) { a.folder = text; }}};
+}
+
+void check_arguments(const Arguments& arguments) {
+  if (arguments.folder.empty()) {
+    throw Error(ErrorCode::usage, "no folder for the report is given", "Give one: -o study/.");
+  }
+  const std::vector<fs::path>& trees = arguments.trees;
+  for (auto tree = trees.begin(); tree != trees.end(); ++tree) {
+    std::error_code missing;  // is told when the tree is read
+    const auto is_same = [&](const fs::path& other) {
+      return fs::equivalent(*tree, other, missing);
+    };
+    if (std::any_of(trees.begin(), tree, is_same)) {
+      throw Error(ErrorCode::usage, tree->string() + " is given twice", "Give each tree once.");
+    }
+  }
+  check_output_folder(arguments.folder);
+}
+
+/// What the report calls the trees: their files' stems, numbered where two are the same.
+std::vector<std::string> names_of(const std::vector<fs::path>& trees) {
+  std::vector<std::string> names;
+  std::set<std::string> taken;
+  for (const fs::path& tree : trees) {
+    const std::string stem = tree.stem().string();
+    std::string name = stem;
+    for (int n = 2; !taken.insert(name).second; ++n) name = stem + " (" + std::to_string(n) + ")";
+    names.push_back(name);
+  }
+  return names;
+}
+
+/// The words as typed, with names in place of paths: where this machine keeps its files is
+/// nobody's business.
+std::vector<std::string> without_folders(const Arguments& arguments) {
+  std::vector<fs::path> paths = arguments.trees;
+  paths.push_back(arguments.folder);
+  std::vector<std::string> words = {"leafhull"};
+  for (std::string word : std::span(arguments.command).subspan(1)) {
+    for (const fs::path& path : paths) {
+      if (!word.ends_with(path.string())) continue;
+      const fs::path named = path.has_filename() ? path : path.parent_path();
+      word.resize(word.size() - path.string().size());
+      word += named.filename().string();
+      break;
+    }
+    words.push_back(word);
+  }
+  return words;
+}
+
+std::string today() {
+  const std::time_t now = std::time(nullptr);
+  std::tm date{};
+  localtime_r(&now, &date);
+  char text[] = "YYYY-MM-DD";
+  std::strftime(text, sizeof text, "%F", &date);
+  return text;
+}
+
+/// The processor's name and the threads in use.
+std::string machine(int threads) {
+  std::string name = "unknown CPU";
+  std::ifstream facts("/proc/cpuinfo");
+  for (std::string line; std::getline(facts, line);) {
+    if (line.starts_with("model name")) {
+      name = line.substr(std::min(line.find(':') + 2, line.size()));
+      break;
+    }
+  }
+  const auto used =
+      threads > 0 ? static_cast<unsigned>(threads) : std::thread::hardware_concurrency();
+  return name + ", " + std::to_string(used) + (used == 1 ? " thread" : " threads");
+}
+
+LeafSet leaves_of(const fs::path& file, const LeafOptions& options, Console& console) {
+  console.progress("read " + file.filename().string(), 0);
+  const TreeModel tree = read_tree(file);
+  for (const std::string& warning : tree.warnings) console.warn(warning);
+  LeafSet leaves = find_leaves(tree, options);
+  for (const std::string& warning : leaves.warnings) console.warn(warning);
+  return leaves;
+}
+
+std::string_view in_words(Outcome outcome) {
+  constexpr std::string_view kWords[] = {"holds", "does not hold", "cannot be told"};
+  return kWords[static_cast<std::size_t>(outcome)];
+}
+
+/// The verdicts under the project's own reading, and under how many a claim holds.
+void print_verdicts(const TreeStudy& tree) {
+  std::vector<std::vector<std::string>> rows = {{"claim", "verdict", "readings"}};
+  const std::vector<ReadingStudy>& readings = tree.readings;
+  for (std::size_t i = 0; i < readings.front().verdicts.size(); ++i) {
+    const Verdict& verdict = readings.front().verdicts[i];
+    const auto holding = std::count_if(readings.begin(), readings.end(), [&](const auto& study) {
+      return study.verdicts[i].outcome == Outcome::holds;
+    });
+    std::string number = verdict.number;
+    number.resize(4, ' ');
+    rows.push_back({number + verdict.claim, std::string(in_words(verdict.outcome)),
+                    std::to_string(holding) + " of " + std::to_string(readings.size())});
+  }
+  std::cout << tree.name << ": " << count(tree.leaf_vertices) << " leaf vertices\n"
+            << table(rows) << '\n';
+}
+
+void run_study(const Arguments& arguments) {
+  Console console(arguments.quiet, arguments.verbose);
+  check_arguments(arguments);
+  const LeafOptions options = resolve(arguments.options).leaf_options();
+  catch_signals();
+  const auto began = std::chrono::steady_clock::now();
+  std::future<Device> opening = open_device(arguments.device, readings().front().falloff);
+  std::vector<LeafSet> trees;
+  for (const fs::path& tree : arguments.trees) {
+    trees.push_back(leaves_of(tree, options, console));
+  }
+  Device device = opening.get();
+
+  Study study;
+  const std::vector<std::string> names = names_of(arguments.trees);
+  for (std::size_t i = 0; i < trees.size(); ++i) {
+    const std::string tree =
+        "tree " + std::to_string(i + 1) + " of " + std::to_string(trees.size()) + ": ";
+    const auto progress = [&](std::string_view stage, double done) {
+      console.progress_of_all(tree + std::string(stage),
+                              (static_cast<double>(i) + done) / static_cast<double>(trees.size()));
+    };
+    study.trees.push_back(study_tree(trees[i], names[i], device, progress));
+  }
+  study.version = kVersion;
+  study.device = device.info().name + " (" + device.info().platform + ")";
+  study.machine = machine(device.threads());
+  study.date = today();
+  study.command = without_folders(arguments);
+  study.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+  console.progress("write", 0);
+  write_study(study, arguments.folder);
+  clear_progress();
+  for (const TreeStudy& tree : study.trees) print_verdicts(tree);
+  console.say("leafhull: " + (arguments.folder / "report.html").string() + " in " +
+              seconds(study.seconds));
+}
+
+}  // namespace
+
+Verb study_verb() {
+  return {
+      .name = "study",
+      .summary = "the paper's evaluation of your trees: does each claim hold?",
+      .about =
+          "Repeats the paper's tables and figures on each TREE under every reading of its open\n"
+          "points, says which of its claims hold, and writes a report with pictures.",
+      .examples =
+          "  leafhull study birch.glb -o study/\n"
+          "  leafhull study birch.glb ash.glb --leaves '*leaf*' -o study/\n",
+      .takes_trees = true,
+      .flags = all_of(
+          {option_flags("Leaves"), folder_flags(), device_flags(), console_flags(), help_flags()}),
+      .run = run_study};
+}
+
+}  // namespace leafhull::cli

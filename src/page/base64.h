@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace leafhull {
+
+std::string base64(std::span<const std::uint8_t> bytes);
+
+/// What stands in an `src` in place of an address. Source: RFC 2397.
+std::string data_uri(std::string_view media_type, std::span<const std::uint8_t> bytes);
+
+}  // namespace leafhull

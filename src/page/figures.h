@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "leafhull/study.h"
+
+namespace leafhull {
+
+/// A parameter of the paper and the two figures that vary it: numbers, and pictures.
+struct ParameterFigures {
+  int curves, pictures;  ///< the paper's numbers of the figures
+  std::string_view symbol, meaning, axis;
+  std::vector<StudyRow> ReadingStudy::*rows;
+  double StudyRow::*value;
+  std::vector<LabelledPicture> TreeStudy::*sheet;
+};
+
+extern const std::array<ParameterFigures, 3> kParameterFigures;
+
+/// "k = 2, standard deviation, exact density".
+std::string reading_name(const Reading& reading);
+
+/// A chart as a file of its own.
+struct Plot {
+  std::string file_name, svg;
+};
+
+/// The plots of one tree, by parameter: in the first reading, and in all of them.
+struct TreePlots {
+  std::array<Plot, 3> first, all;
+};
+
+/// Dilated voxels and off-site vertices of CTRLED over each parameter, a line for each reading; no
+/// plots where the program that draws them is missing.
+/// @throws Error output: it fails.
+std::vector<TreePlots> draw_plots(const Study& study);
+
+}  // namespace leafhull

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "leafhull/study.h"
+#include "page/figures.h"
+
+namespace leafhull {
+
+/// The three methods: a still picture, its label and the mesh that web/viewer.js shows.
+nlohmann::json shapes_data(const TreeStudy& tree);
+
+/// A contact sheet, false where it has no pictures.
+nlohmann::json sheet_data(const std::vector<LabelledPicture>& pictures, const std::string& tree);
+
+nlohmann::json plot_data(const Plot& plot, const std::string& alt);
+
+}  // namespace leafhull

@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "page/report_data.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <string_view>
+
+#include "page/claims_data.h"
+#include "page/figures.h"
+#include "page/pictures_data.h"
+#include "page/typeset.h"
+#include "study/numbers.h"
+
+namespace leafhull {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr std::size_t kIsotropic = static_cast<std::size_t>(Method::isotropic);
+
+std::string duration_text(double seconds) {
+  if (seconds < 100) return fixed(seconds, 1) + " s";
+  return fixed(seconds / 60, 1) + " min";
+}
+
+/// As a shell would take it.
+std::string command_text(const std::vector<std::string>& command) {
+  constexpr std::string_view kPlain =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_./=:,+%@";
+  std::string text;
+  for (const std::string& word : command) {
+    if (!text.empty()) text += ' ';
+    if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) {
+      text += word;
+      continue;
+    }
+    text += '\'';
+    for (const char character : word) {
+      text += character == '\'' ? std::string("'\\''") : std::string(1, character);
+    }
+    text += '\'';
+  }
+  return text;
+}
+
+// Table 1
+
+using Count = std::uint64_t (*)(const StudyRow&);
+
+std::uint64_t dilated(const StudyRow& row) { return row.metrics.dilated_voxels; }
+std::uint64_t off_site(const StudyRow& row) { return row.off_site(); }
+
+constexpr const char* kNoSurface = "no surface";
+constexpr const char* kNone = "–";
+
+template <class Text>
+Json cells(const std::array<StudyRow, 3>& rows, Text text) {
+  Json cells = Json::array();
+  for (const StudyRow& row : rows) cells.push_back(row.empty ? std::string(kNoSurface) : text(row));
+  return cells;
+}
+
+Json counts_row(const std::string& label, const std::array<StudyRow, 3>& rows, Count count) {
+  return {{"label", label},
+          {"cells", cells(rows, [&](const StudyRow& row) { return grouped(count(row)); })}};
+}
+
+Json ratios_row(const std::string& label, const std::array<StudyRow, 3>& rows, Count count) {
+  const StudyRow& isotropic = rows[kIsotropic];
+  const auto ratio = [&](const StudyRow& row) -> std::string {
+    if (isotropic.empty || count(isotropic) == 0) return kNone;
+    return fixed(static_cast<double>(count(row)) / static_cast<double>(count(isotropic)), 2);
+  };
+  return {{"label", label + ", L&D = 1"}, {"cells", cells(rows, ratio)}, {"derived", true}};
+}
+
+Json shares_row(const std::string& label, const std::array<StudyRow, 3>& rows,
+                std::uint64_t leaf_vertices) {
+  const auto share = [&](const StudyRow& row) {
+    return percent(static_cast<double>(off_site(row)) / static_cast<double>(leaf_vertices));
+  };
+  return {{"label", label + ", of its leaf vertices"},
+          {"cells", cells(rows, share)},
+          {"derived", true}};
+}
+
+Json table1(const TreeStudy& tree, const ReadingStudy& own) {
+  const auto& ours = own.table1;
+  const auto& theirs = paper_results().table1;
+  const std::string paper = "the paper";
+  return {{{"metric", "Dilated voxels"},
+           {"rows",
+            {counts_row(tree.name, ours, dilated), counts_row(paper, theirs, dilated),
+             ratios_row(tree.name, ours, dilated), ratios_row(paper, theirs, dilated)}}},
+          {{"metric", "Off-site vertices"},
+           {"rows",
+            {counts_row(tree.name, ours, off_site), counts_row(paper, theirs, off_site),
+             shares_row(tree.name, ours, tree.leaf_vertices),
+             shares_row(paper, theirs, kPaperLeafVertices), ratios_row(tree.name, ours, off_site),
+             ratios_row(paper, theirs, off_site)}}}};
+}
+
+// Table 2
+
+std::string added_text(const StudyTime& time) {
+  const double added = time.proposed / time.previous - 1;
+  return std::string(added < 0 ? "" : "+") + fixed(100 * added, 0) + "%";
+}
+
+void append_seconds(Json& cells, const StudyTime* time) {
+  if (time == nullptr || time->empty) {
+    for (int i = 0; i < 3; ++i) cells.push_back(kNone);
+    return;
+  }
+  cells.push_back(fixed(time->previous, 3));
+  cells.push_back(fixed(time->proposed, 3));
+  cells.push_back(added_text(*time));
+}
+
+const StudyTime* at_resolution(const std::vector<StudyTime>& times, int resolution) {
+  const auto found = std::ranges::find(times, resolution, &StudyTime::resolution);
+  return found == times.end() ? nullptr : &*found;
+}
+
+Json table2(const ReadingStudy& own) {
+  Json rows = Json::array();
+  for (const StudyTime& time : own.table2) {
+    Json cells = Json::array();
+    append_seconds(cells, &time);
+    append_seconds(cells, at_resolution(paper_results().table2, time.resolution));
+    rows.push_back({{"resolution", std::to_string(time.resolution)}, {"cells", std::move(cells)}});
+  }
+  return rows;
+}
+
+// Figures
+
+Json figure_rows(const ParameterFigures& figures, const ReadingStudy& own) {
+  Json rows = Json::array();
+  for (const StudyRow& row : own.*figures.rows) {
+    const auto text = [&](Count count) {
+      return row.empty ? std::string(kNoSurface) : grouped(count(row));
+    };
+    rows.push_back({{"value", shortest(row.*figures.value)},
+                    {"dilated", text(dilated)},
+                    {"off_site", text(off_site)}});
+  }
+  return rows;
+}
+
+Json curve_data(const ParameterFigures& figures, const Plot& plot, const std::string& tree) {
+  return plot_data(plot, "Curves of the dilated voxels and off-site vertices of " + tree +
+                             " over the " + std::string(figures.axis) +
+                             "; the numbers stand below.");
+}
+
+Json parameters(const TreeStudy& tree, const TreePlots* plots) {
+  Json list = Json::array();
+  for (std::size_t i = 0; i < kParameterFigures.size(); ++i) {
+    const ParameterFigures& figures = kParameterFigures[i];
+    Json parameter = {{"symbol", typeset(std::string(figures.symbol))},
+                      {"meaning", figures.meaning},
+                      {"curves", std::to_string(figures.curves)},
+                      {"pictures", std::to_string(figures.pictures)},
+                      {"rows", figure_rows(figures, tree.readings.front())},
+                      {"sheet", sheet_data(tree.*figures.sheet, tree.name)},
+                      {"plots", false}};
+    if (plots != nullptr) {
+      parameter["plots"] = {{"first", curve_data(figures, plots->first[i], tree.name)},
+                            {"all", curve_data(figures, plots->all[i], tree.name)}};
+    }
+    list.push_back(std::move(parameter));
+  }
+  return list;
+}
+
+Json tree_data(const TreeStudy& tree, std::size_t index, const TreePlots* plots) {
+  const ReadingStudy& own = tree.readings.front();
+  const int runs = own.table2.empty() ? 0 : own.table2.front().runs;
+  return {{"id", "tree-" + std::to_string(index + 1)},
+          {"name", tree.name},
+          {"leaves", grouped(tree.leaves)},
+          {"leaf_vertices", grouped(tree.leaf_vertices)},
+          {"duration", duration_text(tree.seconds)},
+          {"shapes", shapes_data(tree)},
+          {"table1", table1(tree, own)},
+          {"parameters", parameters(tree, plots)},
+          {"runs", runs > 0 ? std::to_string(runs) : ""},
+          {"table2", table2(own)},
+          {"readings", readings_data(tree)}};
+}
+
+}  // namespace
+
+nlohmann::json report_data(const Study& study, std::span<const TreePlots> plots) {
+  Json trees = Json::array();
+  std::string names;
+  for (std::size_t i = 0; i < study.trees.size(); ++i) {
+    trees.push_back(tree_data(study.trees[i], i, plots.empty() ? nullptr : &plots[i]));
+    names += (names.empty() ? "" : ", ") + study.trees[i].name;
+  }
+  const std::vector<ReadingStudy>& first = study.trees.front().readings;
+  return {{"version", study.version},
+          {"date", study.date},
+          {"machine", study.machine},
+          {"device", study.device},
+          {"duration", duration_text(study.seconds)},
+          {"command", command_text(study.command)},
+          {"names", names},
+          {"tree_count",
+           study.trees.size() == 1 ? "one tree" : std::to_string(study.trees.size()) + " trees"},
+          {"own_reading", reading_name(first.front().reading)},
+          {"reading_count", std::to_string(first.size())},
+          {"resolution", "64"},
+          {"methods",
+           {paper_name(Method::isotropic), paper_name(Method::uncontrolled),
+            paper_name(Method::controlled)}},
+          {"paper_leaf_vertices", grouped(kPaperLeafVertices)},
+          {"claims", claims_data(study)},
+          {"trees", std::move(trees)}};
+}
+
+}  // namespace leafhull

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "leafhull/study.h"
+
+namespace leafhull {
+
+/// All of a study but pictures and meshes as one JSON object, schema "leafhull-study/1".
+std::string study_json(const Study& study);
+
+}  // namespace leafhull

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <chrono>
+#include <functional>
+#include <string>
+#include <utility>
+
+#include "leafhull/error.h"
+#include "leafhull/series.h"
+#include "leafhull/study.h"
+#include "study/numbers.h"
+#include "study/plan.h"
+#include "study/timing.h"
+
+namespace leafhull {
+namespace {
+
+constexpr int kPictureSize = 480;
+
+// What the parts of a study take, about, in entries of the series: for the bar alone.
+constexpr int kPictureWork = 12;
+int timing_work(int resolution) { return 2 * kRuns * (3 + resolution / 16); }
+
+/// Tells how much of the work is done.
+class Steps {
+ public:
+  Steps(const Progress& progress, int work) : progress_(progress), work_(work) {}
+
+  void start(std::string_view stage) {
+    stage_ = stage;
+    advance(0);
+  }
+  void advance(int work) {
+    done_ += work;
+    if (progress_) progress_(stage_, static_cast<double>(done_) / work_);
+  }
+
+ private:
+  const Progress& progress_;
+  int work_, done_ = 0;
+  std::string stage_;
+};
+
+void measure(const Plan& plan, const LeafSet& leaves, Device& device, Steps& steps) {
+  steps.start("tables");
+  extract_series(leaves, plan.options, device, [&](std::size_t i, SeriesEntry&& entry) {
+    for (StudyRow* row : plan.rows[i]) {
+      row->empty = entry.empty();
+      row->metrics = entry.report.metrics;
+    }
+    steps.advance(1);
+    return true;
+  });
+}
+
+void time(ReadingStudy& study, const LeafSet& leaves, Device& device, Steps& steps) {
+  steps.start("times");
+  for (const int resolution : kTable2Resolutions) {
+    study.table2.push_back(table2_time(leaves, study.reading, resolution, device));
+    steps.advance(timing_work(resolution));
+  }
+}
+
+/// The surface of a row; empty where there is none.
+Mesh surface(const LeafSet& leaves, const StudyRow& row, const Reading& reading, Device& device) {
+  try {
+    return extract(leaves, options_of(row, reading), device).mesh;
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::empty) throw;
+    return {};
+  }
+}
+
+/// Pictures side by side, and what tells them apart.
+struct Strip {
+  std::vector<LabelledPicture> TreeStudy::*pictures;
+  std::vector<StudyRow> rows;
+  std::string (*label)(const StudyRow&);
+};
+
+/// Of a figure's five rows the three that the paper shows.
+std::vector<StudyRow> shown(const std::vector<StudyRow>& figure) {
+  return {figure.front(), figure[figure.size() / 2], figure.back()};
+}
+
+constexpr int kPictures = 12;
+
+std::array<Strip, 4> strips(const ReadingStudy& study) {
+  using Row = const StudyRow&;
+  return {{{&TreeStudy::methods,
+            {study.table1.begin(), study.table1.end()},
+            [](Row row) { return std::string(paper_name(row.method)); }},
+           {&TreeStudy::figure12, shown(study.figure11),
+            [](Row row) { return "T = " + fixed(row.threshold, 1); }},
+           {&TreeStudy::figure14, shown(study.figure13),
+            [](Row row) { return "R_max = " + fixed(row.radius_max, 1); }},
+           {&TreeStudy::figure16, shown(study.figure15),
+            [](Row row) { return "λ_R = " + fixed(row.flatness, 1); }}}};
+}
+
+/// Fills the pictures, all taken from one place, and the meshes.
+void draw(TreeStudy& tree, const LeafSet& leaves, Device& device, Steps& steps) {
+  steps.start("pictures");
+  const ReadingStudy& own = tree.readings.front();
+  std::vector<Mesh> meshes;
+  Box frame = leaves.bounds;
+  for (const Strip& strip : strips(own)) {
+    for (const StudyRow& row : strip.rows) {
+      const Mesh& mesh = meshes.emplace_back(surface(leaves, row, own.reading, device));
+      for (const Vec3f p : mesh.positions) frame.include(mesh.origin + Vec3d(p));
+    }
+  }
+  auto mesh = meshes.begin();
+  for (const Strip& strip : strips(own)) {
+    for (const StudyRow& row : strip.rows) {
+      LabelledPicture picture{draw_shape(*mesh, frame, kPictureSize, kPictureSize),
+                              {strip.label(row)}};
+      if (row.empty) picture.lines.emplace_back("no surface");
+      (tree.*strip.pictures).push_back(std::move(picture));
+      ++mesh;
+      steps.advance(kPictureWork);
+    }
+  }
+  std::move(meshes.begin(), meshes.begin() + tree.meshes.size(), tree.meshes.begin());
+}
+
+}  // namespace
+
+TreeStudy study_tree(const LeafSet& leaves, const std::string& name, Device& device,
+                     const Progress& progress) {
+  const auto began = std::chrono::steady_clock::now();
+  TreeStudy tree;
+  tree.name = name;
+  tree.leaves = leaves.leaf_count;
+  tree.leaf_vertices = leaves.vertices.size();
+  tree.bounds = leaves.bounds;
+  for (const Reading& reading : readings()) tree.readings.push_back(planned(reading));
+
+  const Plan all = plan(tree.readings);
+  int work = static_cast<int>(all.options.size()) + kPictures * kPictureWork;
+  for (const int resolution : kTable2Resolutions) {
+    work += static_cast<int>(tree.readings.size()) * timing_work(resolution);
+  }
+  Steps steps(progress, work);
+  measure(all, leaves, device, steps);
+  draw(tree, leaves, device, steps);
+  for (ReadingStudy& study : tree.readings) {
+    time(study, leaves, device, steps);
+    study.verdicts = verdicts(study);
+  }
+  tree.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+  return tree;
+}
+
+}  // namespace leafhull
