@@ -23,7 +23,7 @@ ROOMS = {
     "chart": (("text",), ()),
     "sweep": (("chart", "output"), ("json",)),
     "study": ((), ()),
-    "page": (("chart", "output", "study"), ("json", "meshoptimizer", "mustache")),
+    "page": (("chart", "output", "study", "text"), ("json", "meshoptimizer", "mustache")),
     "cli": ((), ("cli11", "json")),
     "bench": (
         ("density", "device", "pipeline", "surface"),

@@ -15,7 +15,8 @@ ChartPanel panel(std::string label, const ParameterFigures& figures,
                  std::span<const ReadingStudy> readings, Count count) {
   ChartPanel panel{.y_label = std::move(label), .lines = {}};
   for (const ReadingStudy& reading : readings) {
-    ChartLine line{.name = reading_name(reading.reading), .x = {}, .y = {}};
+    ChartLine line;
+    if (readings.size() > 1) line.name = reading_name(reading.reading);
     for (const StudyRow& row : reading.*figures.rows) {
       line.x.push_back(row.*figures.value);
       line.y.push_back(row.empty ? std::nan("") : static_cast<double>(count(row)));
@@ -46,12 +47,12 @@ std::string file_stem(std::string name) {
 }  // namespace
 
 const std::array<ParameterFigures, 3> kParameterFigures{
-    {{11, 12, "T", "", "the threshold", "threshold T", &ReadingStudy::figure11,
-      &StudyRow::threshold, &TreeStudy::figure12},
-     {13, 14, "R", "max", "the radius of sparse leaves", "radius R_max (crown units)",
+    {{11, 12, "T", "the threshold", "threshold T", &ReadingStudy::figure11, &StudyRow::threshold,
+      &TreeStudy::figure12},
+     {13, 14, "R_max", "the radius of sparse leaves", "radius R_max (crown units)",
       &ReadingStudy::figure13, &StudyRow::radius_max, &TreeStudy::figure14},
-     {15, 16, "λ", "R", "the flatness", "flatness λ_R", &ReadingStudy::figure15,
-      &StudyRow::flatness, &TreeStudy::figure16}}};
+     {15, 16, "λ_R", "the flatness", "flatness λ_R", &ReadingStudy::figure15, &StudyRow::flatness,
+      &TreeStudy::figure16}}};
 
 std::string reading_name(const Reading& reading) {
   const std::string spread = reading.spread == Spread::stddev ? "standard deviation" : "variance";

@@ -13,7 +13,7 @@ namespace leafhull {
 /// A parameter of the paper and the two figures that vary it: numbers, and pictures.
 struct ParameterFigures {
   int curves, pictures;  ///< the paper's numbers of the figures
-  std::string_view symbol, index, meaning, axis;
+  std::string_view symbol, meaning, axis;
   std::vector<StudyRow> ReadingStudy::*rows;
   double StudyRow::*value;
   std::vector<LabelledPicture> TreeStudy::*sheet;

@@ -14,8 +14,10 @@ namespace {
 
 using Json = nlohmann::json;
 
+constexpr int kQuality = 90;
+
 Json picture_data(const Picture& picture, const std::string& alt) {
-  return {{"src", data_uri("image/png", encode_png(picture))},
+  return {{"src", data_uri("image/jpeg", encode_jpeg(picture, kQuality))},
           {"width", std::to_string(picture.width)},
           {"height", std::to_string(picture.height)},
           {"alt", alt}};

@@ -11,6 +11,7 @@
 #include "page/claims_data.h"
 #include "page/figures.h"
 #include "page/pictures_data.h"
+#include "page/typeset.h"
 #include "study/numbers.h"
 
 namespace leafhull {
@@ -160,8 +161,7 @@ Json parameters(const TreeStudy& tree, const TreePlots* plots) {
   Json list = Json::array();
   for (std::size_t i = 0; i < kParameterFigures.size(); ++i) {
     const ParameterFigures& figures = kParameterFigures[i];
-    Json parameter = {{"symbol", figures.symbol},
-                      {"index", figures.index},
+    Json parameter = {{"symbol", typeset(std::string(figures.symbol))},
                       {"meaning", figures.meaning},
                       {"curves", std::to_string(figures.curves)},
                       {"pictures", std::to_string(figures.pictures)},

@@ -2,15 +2,24 @@
 #include "page/typeset.h"
 
 #include <kainjow/mustache.hpp>
-#include <regex>
+
+#include "text/text.h"
 
 namespace leafhull {
 
-std::string typeset(const std::string& text) {
-  static const std::regex radius("\\bR_max\\b"), flatness("\\blambda_R\\b");
-  const std::string html = kainjow::mustache::html_escape(text);
-  return std::regex_replace(std::regex_replace(html, radius, "R<sub>max</sub>"), flatness,
-                            "λ<sub>R</sub>");
+std::string typeset(std::string text) {
+  constexpr std::string_view kSpelled = "lambda_R";
+  for (std::size_t at = 0; (at = text.find(kSpelled, at)) != std::string::npos;) {
+    text.replace(at, kSpelled.size(), "λ_R");
+  }
+  std::string html;
+  for (const TextRun& run : split_subscripts(text)) {
+    std::string plain;
+    for (const char32_t character : run.text) append_utf8(character, plain);
+    plain = kainjow::mustache::html_escape(plain);
+    html += run.subscript ? "<sub>" + plain + "</sub>" : plain;
+  }
+  return html;
 }
 
 }  // namespace leafhull

@@ -5,7 +5,7 @@
 
 namespace leafhull {
 
-/// Plain text as HTML, R_max and lambda_R with their indices set below the line.
-std::string typeset(const std::string& text);
+/// Plain text as HTML, symbols as in print: R_max and lambda_R with indices below the line.
+std::string typeset(std::string text);
 
 }  // namespace leafhull

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <stb/stb_image_write.h>
+
+#include "leafhull/error.h"
+#include "leafhull/picture.h"
+
+namespace leafhull {
+
+std::vector<std::uint8_t> encode_jpeg(const Picture& picture, int quality) {
+  std::vector<std::uint8_t> file;
+  const auto append = [](void* to, void* bytes, int count) {
+    const auto* first = static_cast<const std::uint8_t*>(bytes);
+    auto& whole = *static_cast<std::vector<std::uint8_t>*>(to);
+    whole.insert(whole.end(), first, first + count);
+  };
+  if (!stbi_write_jpg_to_func(append, &file, picture.width, picture.height, 3, picture.rgb.data(),
+                              quality)) {
+    throw Error(ErrorCode::internal, "a picture without pixels has no JPEG file");
+  }
+  return file;
+}
+
+}  // namespace leafhull
