@@ -84,6 +84,7 @@ class Painter {
   paint(geometry, camera, canvas) {
     this.renderer.setSize(canvas.width, canvas.height, false);
     this.mesh.geometry = geometry;
+    camera.updateMatrixWorld();
     this.key.position.set(-0.55, 0.75, 0.6).transformDirection(camera.matrixWorld);
     this.renderer.render(this.scene, camera);
     const context = canvas.getContext('2d');

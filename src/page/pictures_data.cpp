@@ -14,7 +14,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr int kQuality = 90;
+constexpr int kQuality = 85;
 
 Json picture_data(const Picture& picture, const std::string& alt) {
   return {{"src", data_uri("image/jpeg", encode_jpeg(picture, kQuality))},

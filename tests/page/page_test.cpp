@@ -124,6 +124,7 @@ TEST(Page, DoesWithoutPicturesAndMeshes) {
   TreeStudy& tree = study.trees.front();
   tree.methods.clear();
   tree.figure12.clear();
+  tree.figure14.clear();
   tree.meshes = {};
   tree.bounds = {};
   const std::string page = page_of({.trees = {tree}});
