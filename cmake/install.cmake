@@ -6,7 +6,7 @@ install(DIRECTORY include/leafhull ${PROJECT_BINARY_DIR}/include/leafhull
         DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
 install(TARGETS leafhull EXPORT leafhullTargets)
 install(EXPORT leafhullTargets NAMESPACE leafhull:: DESTINATION ${leafhull_cmake_dir})
-install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(FILES LICENSE NOTICE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
 file(RELATIVE_PATH bin_to_lib ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_LIBDIR})
 set_target_properties(leafhull_command PROPERTIES INSTALL_RPATH "$ORIGIN/${bin_to_lib}")

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "leafhull/leaves.h"
 #include "leafhull/shape.h"
 #include "leafhull/vec.h"
 
@@ -18,11 +19,21 @@ struct Picture {
   std::vector<std::uint8_t> rgb;  ///< 3 * width * height
 };
 
+/// What a picture holds: points and as much around each as `reach`, model units.
+struct Frame {
+  std::vector<Vec3d> points;
+  double reach = 0;
+};
+
+/// The leaf vertices and what kernels with radii up to `radius_max` (model units), or the leaves'
+/// own, fill around them.
+Frame frame_of(const LeafSet& leaves, double radius_max);
+
 /// A shaded picture of a closed mesh on white, seen from three quarters. Pictures of one `frame`
-/// (model units) and size are taken from the same place and compare. A mesh without vertices is
-/// white paper.
-/// @throws Error internal where the ray tracer does not start.
-Picture draw_shape(const Mesh& mesh, const Box& frame, int width, int height);
+/// and size are taken from the same place and compare. A mesh without vertices is white paper.
+/// @throws Error usage: no pixels, or a mesh in a frame without extent; internal: the ray tracer
+/// does not start.
+Picture draw_shape(const Mesh& mesh, const Frame& frame, int width, int height);
 
 struct LabelledPicture {
   Picture picture;

@@ -119,7 +119,8 @@ class Script {
 
   void add_legend(const ChartText& name) {
     const Look look = looks_.at(name.text);
-    const double right = name.x - 8, left = right - kSampleLength, y = name.y - 0.35 * kLabelSize;
+    const double right = name.x - kSampleGap, left = right - kSampleLength,
+                 y = name.y - 0.35 * kLabelSize;
     add("set arrow from" + at(left, y) + "to" + at(right, y) + "nohead " + stroke(look));
     add("set label '' at" + at((left + right) / 2, y) + "point " + marker(look));
     add_label(name);
@@ -168,9 +169,10 @@ class Script {
       add_points(line);
       add("end");
       const std::string title = " title " + quoted_plain(line.name) + " noenhanced";
-      plots +=
-          (plots.empty() ? "plot " : ", ") + data + " using 1:2 with lines " + stroke(look) + title;
-      plots += ", " + data + " using 1:3 with points " + marker(look) + title;
+      plots += plots.empty() ? "plot " : ", ";
+      plots.append(data).append(" using 1:2 with lines ").append(stroke(look)).append(title);
+      plots.append(", ").append(data).append(" using 1:3 with points ");
+      plots.append(marker(look)).append(title);
     }
     add(plots.empty() ? "plot NaN" : plots);
   }

@@ -8,7 +8,7 @@
 namespace leafhull {
 namespace {
 
-constexpr double kMargin = 10, kGap = 28, kSpace = 8;
+constexpr double kMargin = 10, kGap = 28, kTickGap = 8;
 constexpr double kTitleHeight = 36, kLegendRow = 24, kHeadingHeight = 44, kPanelHeight = 210,
                  kFootHeight = 62;
 constexpr double kCharacter = 0.56;  // the mean width, of the type's size
@@ -21,15 +21,16 @@ ChartText fitted(std::string_view text, double x, double y, double size, double 
 
 /// Names in as many columns as fit, each as wide as its longest.
 std::vector<ChartText> lay_out_legend(const std::vector<std::string>& names, double top) {
-  constexpr double kRoom = kChartWidth - 2 * kMargin - kSampleLength - kSpace;
+  constexpr double kRoom = kChartWidth - 2 * kMargin - kSampleLength - kSampleGap;
   std::vector<ChartText> legend(names.size());
   for (std::size_t columns = names.size(); columns > 0; --columns) {
     double left = kMargin;
     for (std::size_t column = 0; column < columns; ++column) {
-      left += kSampleLength + kSpace;
+      left += kSampleLength + kSampleGap;
       double widest = 0;
       for (std::size_t i = column; i < names.size(); i += columns) {
-        const double middle = top + kLegendRow * (static_cast<double>(i / columns) + 0.5);
+        const std::size_t row = i / columns;
+        const double middle = top + kLegendRow * (static_cast<double>(row) + 0.5);
         legend[i] = fitted(names[i], left, middle + 0.35 * kLabelSize, kLabelSize, kRoom);
         widest = std::max(widest, text_width(names[i], legend[i].size));
       }
@@ -51,7 +52,7 @@ PanelLayout lay_out_panel(const ChartPanel& panel, double left, double width, do
   for (const Tick& tick : layout.y.ticks) {
     widest = std::max(widest, text_width(tick.text, kTickSize));
   }
-  layout.left = left + widest + kSpace, layout.right = left + width;
+  layout.left = left + widest + kTickGap, layout.right = left + width;
   layout.top = top + kHeadingHeight, layout.bottom = layout.top + kPanelHeight;
   layout.heading = fitted(panel.y_label, left, layout.top - 18, kLabelSize, width);
   return layout;

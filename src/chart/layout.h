@@ -13,7 +13,7 @@ namespace leafhull {
 // Pixels. A telephone shows a chart at little more than half its size: hence the large type.
 inline constexpr double kChartWidth = 640;
 inline constexpr double kTitleSize = 18, kLabelSize = 16, kTickSize = 15;
-inline constexpr double kSampleLength = 40;  ///< of a line in the legend
+inline constexpr double kSampleLength = 40, kSampleGap = 8;  ///< in the legend, before a name
 
 /// A text on its baseline.
 struct ChartText {

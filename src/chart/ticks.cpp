@@ -19,7 +19,7 @@ std::string text_of(double value, bool in_millions) {
   if (result.find_first_of(".e") == std::string::npos) {
     const int first_digit = value < 0 ? 1 : 0;
     for (int at = static_cast<int>(result.size()) - 3; at > first_digit; at -= 3) {
-      result.insert(static_cast<std::size_t>(at), ",");
+      result.insert(static_cast<std::size_t>(at), 1, ',');
     }
   }
   return in_millions && value != 0 ? result + " M" : result;

@@ -54,14 +54,23 @@ void Console::warn(const std::string& line) {
 }
 
 void Console::progress(std::string_view stage, double done) {
+  if (stage == stage_ && Clock::now() - drawn_ < kRedraw) return;
   draw(stage, done, seconds(since(start_)));
+}
+
+void Console::progress_of_all(std::string_view stage, double done) {
+  const double gone = since(start_);
+  std::string beside = seconds(gone);
+  if (done > 0) beside += ", about " + duration(gone * (1 - done) / done) + " left";
+  draw(stage, done, beside);
 }
 
 void Console::progress(std::string_view stage, std::size_t done, std::size_t all) {
   if (!resumed_) resumed_ = done, resumed_at_ = Clock::now();
+  if (Clock::now() - drawn_ < kRedraw) return;  // its stages are too short to follow each
   std::string beside =
       std::to_string(done) + " of " + std::to_string(all) + ", " + seconds(since(start_));
-  if (done > *resumed_) {
+  if (done > *resumed_ && done < all) {
     const double pace = since(resumed_at_) / static_cast<double>(done - *resumed_);
     beside += ", about " + duration(pace * static_cast<double>(all - done)) + " left";
   }
@@ -70,10 +79,8 @@ void Console::progress(std::string_view stage, std::size_t done, std::size_t all
 
 void Console::draw(std::string_view stage, double done, const std::string& beside) {
   if (!bar_) return;
-  const auto now = Clock::now();
-  if (stage == stage_ && now - drawn_ < kRedraw) return;
   stage_ = stage;
-  drawn_ = now;
+  drawn_ = Clock::now();
   const int filled = static_cast<int>(std::lround(std::clamp(done, 0.0, 1.0) * kBarWidth));
   std::string name = stage_;
   name.resize(std::max<std::size_t>(name.size(), 10), ' ');

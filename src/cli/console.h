@@ -22,6 +22,8 @@ class Console {
 
   /// A bar with the stage and the time since the start, on a terminal only.
   void progress(std::string_view stage, double done);
+  /// The same where `done` is of all there is to do, with the time left.
+  void progress_of_all(std::string_view stage, double done);
   /// The same for a row of things: how many are done, and from their pace the time left. What is
   /// done at the first call was not done now.
   void progress(std::string_view stage, std::size_t done, std::size_t all);

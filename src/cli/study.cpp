@@ -156,11 +156,12 @@ void run_study(const Arguments& arguments) {
   const std::vector<std::string> names = names_of(arguments.trees);
   for (std::size_t i = 0; i < trees.size(); ++i) {
     const std::string tree =
-        names[i] + " " + std::to_string(i + 1) + "/" + std::to_string(trees.size()) + ", ";
-    study.trees.push_back(
-        study_tree(trees[i], names[i], device, [&](std::string_view stage, double done) {
-          console.progress(tree + std::string(stage), (i + done) / trees.size());
-        }));
+        "tree " + std::to_string(i + 1) + " of " + std::to_string(trees.size()) + ": ";
+    const auto progress = [&](std::string_view stage, double done) {
+      console.progress_of_all(tree + std::string(stage),
+                              (static_cast<double>(i) + done) / static_cast<double>(trees.size()));
+    };
+    study.trees.push_back(study_tree(trees[i], names[i], device, progress));
   }
   study.version = kVersion;
   study.device = device.info().name + " (" + device.info().platform + ")";

@@ -18,9 +18,10 @@ struct Wedge {
   float slope;
   float low = -HUGE_VALF, high = -HUGE_VALF;
 
-  void include(float across, float depth) {
-    low = std::max(low, -across - slope * depth);
-    high = std::max(high, across - slope * depth);
+  void include(float across, float depth, float reach) {
+    const float beyond = reach * std::hypot(1.0f, slope) - slope * depth;
+    low = std::max(low, beyond - across);
+    high = std::max(high, beyond + across);
   }
   float centre() const { return (high - low) / 2; }
   float depth() const { return -(high + low) / (2 * slope); }
@@ -28,7 +29,7 @@ struct Wedge {
 
 }  // namespace
 
-Camera frame(std::span<const Vec3f> points, float aspect, float margin) {
+Camera frame(std::span<const Vec3f> points, float aspect, float margin, float reach) {
   const float longer = std::max(aspect, 1.0f);
   Camera camera;
   camera.tan_x = kTanHalfView * aspect / longer;
@@ -41,8 +42,8 @@ Camera frame(std::span<const Vec3f> points, float aspect, float margin) {
   Wedge horizontal{camera.tan_x * (1 - 2 * margin)}, vertical{camera.tan_y * (1 - 2 * margin)};
   for (const Vec3f p : points) {
     const float depth = dot(p, camera.forward);
-    horizontal.include(dot(p, camera.right), depth);
-    vertical.include(dot(p, camera.up), depth);
+    horizontal.include(dot(p, camera.right), depth, reach);
+    vertical.include(dot(p, camera.up), depth, reach);
   }
   camera.eye = camera.right * horizontal.centre() + camera.up * vertical.centre() +
                camera.forward * std::min(horizontal.depth(), vertical.depth());

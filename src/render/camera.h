@@ -18,8 +18,8 @@ struct Camera {
   }
 };
 
-/// The camera whose picture of `aspect` (width / height) holds `points` with `margin`, a part of
-/// the picture's width and height, on each side.
-Camera frame(std::span<const Vec3f> points, float aspect, float margin = 0.06f);
+/// The camera whose picture of `aspect` (width / height) holds balls of radius `reach` around
+/// `points` with `margin`, a part of the picture's width and height, on each side.
+Camera frame(std::span<const Vec3f> points, float aspect, float margin = 0.06f, float reach = 0);
 
 }  // namespace leafhull::render

@@ -37,9 +37,8 @@ struct Layout {
     if (!title_text.empty()) title_height = static_cast<int>(2 * title.size());
   }
 
-  int row_height() const {
-    return picture_height + (lines > 0 ? line_height / 3 + lines * line_height : 0);
-  }
+  int label_top() const { return picture_height + line_height / 3; }
+  int row_height() const { return lines > 0 ? label_top() + lines * line_height : picture_height; }
   int width() const { return 2 * margin + columns * cell + (columns - 1) * gap; }
   int height() const {
     return 2 * margin + title_height + rows * row_height() + std::max(rows - 1, 0) * gap;
@@ -61,10 +60,10 @@ struct Layout {
   explicit Layout(Size size)
       : picture_width(size.width),
         picture_height(size.height),
-        title(std::clamp(size.width / 10.0f, 18.0f, 48.0f)),
-        label(std::clamp(size.width / 15.0f, 12.0f, 32.0f)),
-        gap(static_cast<int>(1.6f * label.size())),
-        margin(static_cast<int>(1.8f * label.size())),
+        title(std::clamp(size.width / 9.0f, 18.0f, 48.0f)),
+        label(std::clamp(size.width / 13.0f, 12.0f, 32.0f)),
+        gap(static_cast<int>(1.2f * label.size())),
+        margin(static_cast<int>(1.5f * label.size())),
         line_height(static_cast<int>(1.35f * label.size())) {}
 };
 
@@ -91,7 +90,7 @@ Picture contact_sheet(std::string_view title, std::span<const LabelledPicture> p
     const int left = layout.left(static_cast<int>(i) % layout.columns);
     const int top = layout.top(static_cast<int>(i) / layout.columns);
     render::paste(picture, left + (layout.cell - picture.width) / 2, top, sheet);
-    float baseline = top + layout.picture_height + layout.line_height / 3 + layout.label.size();
+    float baseline = top + layout.label_top() + layout.label.size();
     for (std::size_t line = 0; line < lines.size(); ++line, baseline += layout.line_height) {
       layout.label.draw(lines[line], left + layout.cell / 2.0f, baseline,
                         line == 0 ? render::kInk : render::kQuietInk, sheet);

@@ -18,9 +18,9 @@ namespace leafhull {
 namespace render {
 namespace {
 
-constexpr float kMargin = 0.03f;
-constexpr int kTurns = 4;  // pixels of a square of kTurns x kTurns look in different directions
-constexpr int kEdgeSamples = 8;
+constexpr float kMargin = 0.02f;
+constexpr int kTurns = 4;     // pixels of a square of kTurns x kTurns look in different directions
+constexpr int kEdgeRays = 4;  // beside the one through the centre
 
 /// How much of the light arrives at a point, 0..1.
 struct Light {
@@ -32,6 +32,14 @@ struct Spot {
   std::optional<Hit> hit;
   Light light;
 };
+
+/// The first points of a sequence, computed once.
+template <std::size_t count>
+std::array<Vec2f, count> sobol_points(std::uint32_t seed) {
+  std::array<Vec2f, count> points;
+  for (std::uint32_t i = 0; i < count; ++i) points[i] = sobol(i, seed);
+  return points;
+}
 
 template <class T>
 class Grid {
@@ -91,9 +99,9 @@ class ShapePainter {
     if (!spot.hit) return spot;
     const Hit& hit = *spot.hit;
     const std::uint32_t turn = x % kTurns + y % kTurns * kTurns;
-    const Vec3f sun = normalized(on_disk(sun_, sobol(turn, 1), kSunRadius));
+    const Vec3f sun = normalized(on_disk(sun_, sun_turns_[turn], kSunRadius));
     if (dot(hit.normal, sun) > 0) spot.light.sun = !scene_.occluded(hit.position, sun, HUGE_VALF);
-    const Vec3f ray = cosine_direction(hit.normal, sobol(turn, 2));
+    const Vec3f ray = cosine_direction(hit.normal, sky_turns_[turn]);
     spot.light.sky =
         dot(ray, hit.face_normal) > 0 && !scene_.occluded(hit.position, ray, kSkyReach);
     return spot;
@@ -131,13 +139,11 @@ class ShapePainter {
 
   bool is_edge(int x, int y) const {
     const std::optional<Hit>& here = spots_(x, y).hit;
-    for (int j = -1; j <= 1; ++j) {
-      for (int i = -1; i <= 1; ++i) {
-        if (!spots_.holds(x + i, y + j)) continue;
-        const std::optional<Hit>& there = spots_(x + i, y + j).hit;
-        if (here.has_value() != there.has_value()) return true;
-        if (here && likeness(*here, *there) < 0.5f) return true;
-      }
+    for (const auto [i, j] : {std::array{-1, 0}, {1, 0}, {0, -1}, {0, 1}}) {
+      if (!spots_.holds(x + i, y + j)) continue;
+      const std::optional<Hit>& there = spots_(x + i, y + j).hit;
+      if (here.has_value() != there.has_value()) return true;
+      if (here && likeness(*here, *there) < 0.1f) return true;
     }
     return false;
   }
@@ -156,13 +162,12 @@ class ShapePainter {
   }
 
   Vec3f edge_color(int x, int y) const {
-    Vec3f sum{};
-    for (std::uint32_t i = 0; i < kEdgeSamples; ++i) {
-      const Vec2f at = sobol(i, 3);
+    Vec3f sum = color_at(x, y);
+    for (const Vec2f at : edge_points_) {
       const std::optional<Hit> hit = cast(x + at.x, y + at.y);
       sum = sum + (hit ? shade(*hit, light_like(*hit, x, y)) : kWhite);
     }
-    return sum * (1.0f / kEdgeSamples);
+    return sum * (1.0f / (1 + kEdgeRays));
   }
 
   /// The light of the spot around (x, y) that is most like `hit`.
@@ -185,31 +190,54 @@ class ShapePainter {
   Grid<Spot> spots_;
   Grid<Light> smooth_;
   float pixel_;  ///< its size in the scene
+  const std::array<Vec2f, kTurns* kTurns> sun_turns_ = sobol_points<kTurns * kTurns>(1);
+  const std::array<Vec2f, kTurns* kTurns> sky_turns_ = sobol_points<kTurns * kTurns>(2);
+  const std::array<Vec2f, kEdgeRays> edge_points_ = sobol_points<kEdgeRays>(3);
 };
 
-std::array<Vec3f, 8> corners(const Box& box, const Placement& placement) {
-  std::array<Vec3f, 8> points;
-  for (int i = 0; i < 8; ++i) {
-    points[i] = placement({i & 1 ? box.high.x : box.low.x, i & 2 ? box.high.y : box.low.y,
-                           i & 4 ? box.high.z : box.low.z});
-  }
-  return points;
+Picture draw(const Mesh& mesh, const Frame& view, const Box& box, int width, int height) {
+  const Placement placement{(box.low + box.high) / 2, 1 / box.longest_side()};
+  const DeviceHandle embree = open_embree();
+  const Scene scene(embree.get(), {make_surface(embree.get(), mesh, placement)}, Build::quick);
+  std::vector<Vec3f> points;
+  points.reserve(view.points.size());
+  for (const Vec3d p : view.points) points.push_back(placement(p));
+  const Camera camera = frame(points, width / static_cast<float>(height), kMargin,
+                              static_cast<float>(view.reach * placement.scale));
+  return ShapePainter(scene, camera, width, height).picture();
+}
+
+/// The box of what a frame holds.
+Box box_of(const Frame& frame) {
+  Box box;
+  for (const Vec3d p : frame.points) box.include(p);
+  const Vec3d reach{frame.reach, frame.reach, frame.reach};
+  return {box.low - reach, box.high + reach};
 }
 
 }  // namespace
 }  // namespace render
 
-Picture draw_shape(const Mesh& mesh, const Box& frame, int width, int height) {
-  using namespace render;
+Frame frame_of(const LeafSet& leaves, double radius_max) {
+  Frame frame{{}, radius_max};
+  frame.points.reserve(leaves.vertices.size());
+  for (const LeafVertex& leaf : leaves.vertices) {
+    frame.points.push_back(leaf.position);
+    frame.reach = std::max(frame.reach, static_cast<double>(leaf.radius_major));
+  }
+  return frame;
+}
+
+Picture draw_shape(const Mesh& mesh, const Frame& frame, int width, int height) {
+  if (width < 1 || height < 1) throw Error(ErrorCode::usage, "a picture has at least one pixel");
   if (mesh.triangles.empty()) {
     return {width, height, std::vector<std::uint8_t>(std::size_t{3} * width * height, 255)};
   }
-  const Placement placement{(frame.low + frame.high) / 2, 1 / frame.longest_side()};
-  const DeviceHandle embree = open_embree();
-  const Scene scene(embree.get(), {make_surface(embree.get(), mesh, placement)}, Build::quick);
-  const Camera camera =
-      render::frame(corners(frame, placement), width / static_cast<float>(height), kMargin);
-  return ShapePainter(scene, camera, width, height).picture();
+  const Box box = render::box_of(frame);
+  if (!(box.longest_side() > 0)) {
+    throw Error(ErrorCode::usage, "the frame of a picture has no extent");
+  }
+  return render::draw(mesh, frame, box, width, height);
 }
 
 }  // namespace leafhull

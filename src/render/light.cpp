@@ -21,7 +21,8 @@ Vec3f develop(Vec3f radiance) {
 }
 
 std::uint8_t srgb(float linear) {
-  const float x = std::clamp(linear, 0.0f, 1.0f);
+  if (linear >= 1) return 255;
+  const float x = std::max(linear, 0.0f);
   const float s = x <= 0.0031308f ? 12.92f * x : 1.055f * std::pow(x, 1 / 2.4f) - 0.055f;
   return static_cast<std::uint8_t>(std::lround(255 * s));
 }

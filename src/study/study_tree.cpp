@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <chrono>
 #include <functional>
 #include <string>
@@ -16,43 +17,47 @@ namespace {
 
 constexpr int kPictureSize = 480;
 
-/// Tells how much of the work is done, counted in extractions.
+// What the parts of a study take, about, in entries of the series: for the bar alone.
+constexpr int kPictureWork = 12;
+int timing_work(int resolution) { return 2 * kRuns * (3 + resolution / 16); }
+
+/// Tells how much of the work is done.
 class Steps {
  public:
-  Steps(const Progress& progress, std::size_t count) : progress_(progress), count_(count) {}
+  Steps(const Progress& progress, int work) : progress_(progress), work_(work) {}
 
   void start(std::string_view stage) {
     stage_ = stage;
     advance(0);
   }
-  void advance(std::size_t steps = 1) {
-    done_ += steps;
-    if (progress_) progress_(stage_, static_cast<double>(done_) / static_cast<double>(count_));
+  void advance(int work) {
+    done_ += work;
+    if (progress_) progress_(stage_, static_cast<double>(done_) / work_);
   }
 
  private:
   const Progress& progress_;
-  std::size_t count_, done_ = 0;
+  int work_, done_ = 0;
   std::string stage_;
 };
 
 void measure(const Plan& plan, const LeafSet& leaves, Device& device, Steps& steps) {
-  steps.start("tables and figures");
+  steps.start("tables");
   extract_series(leaves, plan.options, device, [&](std::size_t i, SeriesEntry&& entry) {
     for (StudyRow* row : plan.rows[i]) {
       row->empty = entry.empty();
       row->metrics = entry.report.metrics;
     }
-    steps.advance();
+    steps.advance(1);
     return true;
   });
 }
 
 void time(ReadingStudy& study, const LeafSet& leaves, Device& device, Steps& steps) {
+  steps.start("times");
   for (const int resolution : kTable2Resolutions) {
-    steps.start("times at " + std::to_string(resolution) + " voxels");
     study.table2.push_back(table2_time(leaves, study.reading, resolution, device));
-    steps.advance(2 * kRuns);
+    steps.advance(timing_work(resolution));
   }
 }
 
@@ -78,7 +83,7 @@ std::vector<StudyRow> shown(const std::vector<StudyRow>& figure) {
   return {figure.front(), figure[figure.size() / 2], figure.back()};
 }
 
-constexpr std::size_t kPictures = 12;
+constexpr int kPictures = 12;
 
 std::array<Strip, 4> strips(const ReadingStudy& study) {
   using Row = const StudyRow&;
@@ -98,14 +103,14 @@ void draw(TreeStudy& tree, const LeafSet& leaves, Device& device, Steps& steps) 
   steps.start("pictures");
   const ReadingStudy& own = tree.readings.front();
   std::vector<Mesh> meshes;
-  Box frame = leaves.bounds;
+  double radius_max = 0;
   for (const Strip& strip : strips(own)) {
     for (const StudyRow& row : strip.rows) {
-      const Mesh& mesh = meshes.emplace_back(surface(leaves, row, own.reading, device));
-      for (const Vec3f p : mesh.positions) frame.include(mesh.origin + Vec3d(p));
-      steps.advance();
+      meshes.push_back(surface(leaves, row, own.reading, device));
+      radius_max = std::max(radius_max, row.radius_max);
     }
   }
+  const Frame frame = frame_of(leaves, radius_max * leaves.bounds.longest_side() / kCrownUnits);
   auto mesh = meshes.begin();
   for (const Strip& strip : strips(own)) {
     for (const StudyRow& row : strip.rows) {
@@ -114,6 +119,7 @@ void draw(TreeStudy& tree, const LeafSet& leaves, Device& device, Steps& steps) 
       if (row.empty) picture.lines.emplace_back("no surface");
       (tree.*strip.pictures).push_back(std::move(picture));
       ++mesh;
+      steps.advance(kPictureWork);
     }
   }
   std::move(meshes.begin(), meshes.begin() + tree.meshes.size(), tree.meshes.begin());
@@ -132,8 +138,11 @@ TreeStudy study_tree(const LeafSet& leaves, const std::string& name, Device& dev
   for (const Reading& reading : readings()) tree.readings.push_back(planned(reading));
 
   const Plan all = plan(tree.readings);
-  const std::size_t runs = 2 * kRuns * std::size(kTable2Resolutions) * tree.readings.size();
-  Steps steps(progress, all.options.size() + kPictures + runs);
+  int work = static_cast<int>(all.options.size()) + kPictures * kPictureWork;
+  for (const int resolution : kTable2Resolutions) {
+    work += static_cast<int>(tree.readings.size()) * timing_work(resolution);
+  }
+  Steps steps(progress, work);
   measure(all, leaves, device, steps);
   draw(tree, leaves, device, steps);
   for (ReadingStudy& study : tree.readings) {

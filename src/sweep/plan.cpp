@@ -97,13 +97,10 @@ std::string listed(const Json& values) {
 }
 
 std::string first_difference(const Json& there, const Json& here) {
-  if (there.value("version", "") != here["version"]) {
-    return "it was made by leafhull " + there.value("version", "?");
-  }
-  if (there.value("leaves", "") != here["leaves"]) return "its tree, or its leaves, are others";
-  if (there.value("device", "") != here["device"]) {
-    return "it was computed on " + there.value("device", "another device");
-  }
+  const auto differs = [&](const char* key) { return there.value(key, Json()) != here[key]; };
+  if (differs("version")) return "it was made by leafhull " + there.value("version", "?");
+  if (differs("leaves")) return "its tree, or what counts as its leaves, is another";
+  if (differs("device")) return "it was computed on " + there.value("device", "?");
   for (const auto& [name, values] : here["options"].items()) {
     const Json other = there.value("options", Json::object()).value(name, Json::array());
     if (other == values) continue;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cstdio>
 
 #include "leafhull/series.h"
@@ -20,12 +21,6 @@ std::vector<std::string> label(const Suggestion& choice) {
                                   : std::to_string(components) + " components"};
 }
 
-Box frame_of(const LeafSet& leaves) {
-  const double radius = kRadii[2] * leaves.bounds.longest_side() / kCrownUnits;
-  const Vec3d margin{radius, radius, radius};
-  return {leaves.bounds.low - margin, leaves.bounds.high + margin};
-}
-
 double volume(const Box& box) { return box.size().x * box.size().y * box.size().z; }
 
 }  // namespace
@@ -43,6 +38,8 @@ Suggestions suggest(const LeafSet& leaves, const Options& options, Device& devic
     }
   }
 
+  const double largest = *std::max_element(std::begin(kRadii), std::end(kRadii));
+  const Frame frame = frame_of(leaves, largest * leaves.bounds.longest_side() / kCrownUnits);
   std::vector<LabelledPicture> pictures(all.size());
   const SeriesVisitor visit = [&](std::size_t i, SeriesEntry&& entry) {
     Suggestion& choice = result.choices[i];
@@ -52,7 +49,7 @@ Suggestions suggest(const LeafSet& leaves, const Options& options, Device& devic
     const auto voxels = static_cast<double>(choice.report.metrics.dilated_voxels);
     choice.dilated_volume = voxels * side * side * side;
     choice.dilated_share = choice.dilated_volume / volume(leaves.bounds);
-    pictures[i].picture = draw_shape(entry.mesh, frame_of(leaves), kPictureWidth, kPictureHeight);
+    pictures[i].picture = draw_shape(entry.mesh, frame, kPictureWidth, kPictureHeight);
     pictures[i].lines = label(choice);
     return true;
   };

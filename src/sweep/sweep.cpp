@@ -140,14 +140,12 @@ std::vector<std::size_t> remaining(const Files& files, const SweepPlan& plan,
   return todo;
 }
 
-/// The leaves' bounding box, grown by the largest R_max: every picture is taken from one place.
-Box frame_of(const LeafSet& leaves, const SweepPlan& plan) {
+double largest_radius(const LeafSet& leaves, const SweepPlan& plan) {
   double radius = 0;
   for (const Options& options : plan.combinations) {
     radius = std::max(radius, radius_max_in_model_units(leaves, options));
   }
-  const Vec3d margin{radius, radius, radius};
-  return {leaves.bounds.low - margin, leaves.bounds.high + margin};
+  return radius;
 }
 
 /// Adds a stage before the total, and to it.
@@ -175,7 +173,7 @@ std::vector<StageTime> extract_remaining(const LeafSet& leaves, const SweepPlan&
   const std::vector<std::size_t> todo = remaining(files, plan, journal);
   std::vector<Options> options;
   for (const std::size_t i : todo) options.push_back(plan.combinations[i]);
-  const Box frame = frame_of(leaves, plan);
+  const Frame frame = frame_of(leaves, largest_radius(leaves, plan));
   std::vector<StageTime> sums;
   std::size_t done = plan.combinations.size() - todo.size();
   const auto tell = [&](std::string_view stage) {
@@ -209,7 +207,7 @@ void write_sheets(const Files& files, const SweepPlan& plan, const Journal& jour
     std::vector<LabelledPicture> pictures;
     for (std::size_t i = sheet.begin; i < sheet.end; ++i) {
       std::vector<std::string> lines = labels(plan, i);
-      if (journal.rows().at(i)["empty"]) lines.emplace_back("no surface");
+      if (journal.rows().at(i)["empty"].get<bool>()) lines.emplace_back("no surface");
       pictures.push_back({read_picture(files.pictures() / picture_name(plan, i)), lines});
     }
     std::string title = sheet_title(plan, tree);
@@ -263,6 +261,7 @@ SweepSummary run_sweep(const LeafSet& leaves, const SweepPlan& plan, Device& dev
   summary.resumed = summary.combinations - remaining(files, plan, journal).size();
   summary.seconds = extract_remaining(leaves, plan, device, files, journal, progress);
 
+  if (progress) progress("tables", summary.combinations, summary.combinations);
   write_file(files.csv(), csv(plan, journal.rows()));
   write_file(files.json(), sweep_json(header, journal.rows(), run));
   if (can_draw_charts()) {
@@ -270,10 +269,9 @@ SweepSummary run_sweep(const LeafSet& leaves, const SweepPlan& plan, Device& dev
       write_file(files.folder / plot.file, svg(plot.chart));
     }
   }
+  if (progress) progress("sheets", summary.combinations, summary.combinations);
   write_sheets(files, plan, journal, tree);
-  summary.empty = static_cast<std::size_t>(
-      std::count_if(journal.rows().begin(), journal.rows().end(),
-                    [](const auto& row) { return row.second["empty"] == true; }));
+  for (const auto& [combination, row] : journal.rows()) summary.empty += row["empty"].get<bool>();
   return summary;
 }
 

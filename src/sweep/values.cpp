@@ -109,7 +109,7 @@ std::vector<std::string> range(const OptionRow& row, std::string_view text,
   }
   const double scale = std::max({std::abs(first), std::abs(last), step});
   std::vector<std::string> values;
-  for (double i = 0; i <= steps; ++i) values.push_back(shortest(clean(first + i * step, scale)));
+  for (int i = 0; i <= steps; ++i) values.push_back(shortest(clean(first + i * step, scale)));
   return values;
 }
 

@@ -10,7 +10,7 @@ import glb
 from command import CommandTest
 from test_interrupt import listen_to_interrupts
 
-CLAIMS = ["1a", "1b", "2", "3a", "3b", "4a", "4b", "5a", "5b", "6"]
+CLAIMS = ["1a", "1b", "2a", "2b", "3a", "3b", "4a", "4b", "5a", "5b", "6"]
 WORDS = {"holds": "holds", "fails": "does not hold", "open": "cannot be told"}
 
 

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
+#include <fstream>
 #include <functional>
 
 #include "leafhull/error.h"
@@ -128,6 +129,29 @@ TEST_F(OutputNames, SaysThatAFolderOrFileIsReadOnly) {
   EXPECT_TRUE(holds_unprivileged([&] { return is_denied(folder_ / "locked" / "a.glb"); }));
   EXPECT_TRUE(holds_unprivileged([&] { return is_denied(folder_ / "old.glb"); }));
   EXPECT_FALSE(holds_unprivileged([&] { return is_denied(folder_ / "new.glb"); }));
+}
+
+/// What is wrong with a folder for results; empty where nothing is.
+std::string complaint_of(const fs::path& folder) {
+  try {
+    check_output_folder(folder);
+    return "";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::output) << error.what();
+    return error.what();
+  }
+}
+
+TEST(OutputFolder, MayBeMissingWhereItsParentIsThere) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(complaint_of(folder.path()), "");
+  EXPECT_EQ(complaint_of(folder / "new"), "");
+  EXPECT_EQ(complaint_of(folder / "new/"), "");
+  EXPECT_FALSE(fs::exists(folder / "new")) << "only looks";
+  EXPECT_NE(complaint_of(folder / "missing" / "new").find("missing"), std::string::npos);
+  std::ofstream(folder / "file") << "precious";
+  EXPECT_NE(complaint_of(folder / "file").find("not a folder"), std::string::npos);
+  EXPECT_NE(complaint_of(folder / "file" / "new").find("file"), std::string::npos);
 }
 
 }  // namespace

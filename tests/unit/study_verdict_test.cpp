@@ -91,14 +91,14 @@ Outcome outcome(const ReadingStudy& study, const std::string& number) {
 }
 
 TEST(StudyVerdict, ThePapersOwnTablesHold) {
-  for (const char* number : {"1a", "1b", "2", "6"}) {
+  for (const char* number : {"1a", "1b", "2a", "2b", "6"}) {
     const Verdict verdict = leafhull::verdict(paper_results(), number);
     EXPECT_EQ(verdict.outcome, Outcome::holds) << number;
     EXPECT_EQ(verdict.figures, verdict.paper) << number;
   }
   EXPECT_EQ(verdict(paper_results(), "1a").figures, "L&D 13,368, CTRLED 10,275, UNCTRLED 2,649");
   EXPECT_EQ(verdict(paper_results(), "1b").figures, "UNCTRLED 24,766, CTRLED 9,593, L&D 172");
-  EXPECT_EQ(verdict(paper_results(), "2").figures,
+  EXPECT_EQ(verdict(paper_results(), "2a").figures,
             "29% in dilated voxels, 38% in off-site vertices");
   EXPECT_EQ(verdict(paper_results(), "6").figures, "1.56 at 32, 1.49 at 64, 1.16 at 128 voxels");
 }
@@ -141,18 +141,25 @@ TEST(StudyVerdict, NothingToCountIsNoOrder) {
 }
 
 TEST(StudyVerdict, BetweenIsStrict) {
-  EXPECT_EQ(verdict(table1({200, 100, 150}, {0, 1000, 250}), "2").figures,
+  EXPECT_EQ(verdict(table1({200, 100, 150}, {0, 1000, 250}), "2a").figures,
             "50% in dilated voxels, 25% in off-site vertices");
-  EXPECT_EQ(outcome(table1({200, 100, 200}, {0, 1000, 250}), "2"), Outcome::fails);
-  EXPECT_EQ(outcome(table1({200, 100, 150}, {0, 1000, 1000}), "2"), Outcome::fails);
-  EXPECT_EQ(outcome(table1({200, 100, 90}, {0, 1000, 250}), "2"), Outcome::fails);
-  EXPECT_EQ(verdict(table1({200, 100, 210}, {0, 1000, 997}), "2").figures,
+  EXPECT_EQ(outcome(table1({200, 100, 200}, {0, 1000, 250}), "2a"), Outcome::fails);
+  EXPECT_EQ(outcome(table1({200, 100, 150}, {0, 1000, 1000}), "2a"), Outcome::fails);
+  EXPECT_EQ(outcome(table1({200, 100, 90}, {0, 1000, 250}), "2a"), Outcome::fails);
+  EXPECT_EQ(verdict(table1({200, 100, 210}, {0, 1000, 997}), "2a").figures,
             "-10% in dilated voxels, 99.7% in off-site vertices");
 }
 
+TEST(StudyVerdict, ClearOfBothIsATenthAway) {
+  EXPECT_EQ(outcome(table1({200, 100, 150}, {0, 1000, 110}), "2b"), Outcome::holds);
+  EXPECT_EQ(outcome(table1({200, 100, 150}, {0, 1000, 90}), "2b"), Outcome::fails);
+  EXPECT_EQ(outcome(table1({200, 100, 105}, {0, 1000, 110}), "2b"), Outcome::fails);
+  EXPECT_EQ(outcome(table1({200, 100, 105}, {0, 1000, 90}), "2a"), Outcome::holds);
+}
+
 TEST(StudyVerdict, BetweenTwoThatAreTheSameIsNowhere) {
-  EXPECT_EQ(outcome(table1({200, 100, 150}, {7, 7, 8}), "2"), Outcome::open);
-  EXPECT_EQ(outcome(table1({200, 100, 250}, {7, 7, 8}), "2"), Outcome::fails)
+  EXPECT_EQ(outcome(table1({200, 100, 150}, {7, 7, 8}), "2a"), Outcome::open);
+  EXPECT_EQ(outcome(table1({200, 100, 250}, {7, 7, 8}), "2a"), Outcome::fails)
       << "the other count decides";
 }
 
@@ -160,7 +167,7 @@ TEST(StudyVerdict, AMethodWithoutASurfaceIsNamed) {
   ReadingStudy study = table1({30, 0, 20}, {1, 9, 2});
   study.table1[1].empty = true;
   EXPECT_EQ(verdict(study, "1a").figures, "L&D 30, CTRLED 20, UNCTRLED 0 (no surface)");
-  EXPECT_NE(verdict(study, "2").figures.find("UNCTRLED having no surface"), std::string::npos);
+  EXPECT_NE(verdict(study, "2a").figures.find("UNCTRLED having no surface"), std::string::npos);
   EXPECT_EQ(outcome(study, "1a"), Outcome::holds);
   EXPECT_EQ(outcome(study, "1b"), Outcome::holds);
 }
