@@ -8,9 +8,9 @@ import re
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-FOLDERS = (".ci", "bench", "cmake", "examples", "include", "kernels", "src", "tests", "tools")
-SOURCES = {".h", ".cpp", ".cl", ".clh", ".py", ".sh"}
-TEXTS = SOURCES | {".cmake", ".in", ".json", ".md", ".supp", ".txt", ".yml"}
+FOLDERS = (".ci", "bench", "cmake", "examples", "include", "kernels", "src", "tests", "tools", "web")
+SOURCES = {".h", ".cpp", ".cl", ".clh", ".py", ".sh", ".js", ".mjs"}
+TEXTS = SOURCES | {".cmake", ".css", ".html", ".in", ".json", ".md", ".supp", ".txt", ".yml"}
 LINES_MAX = 600
 
 

@@ -19,7 +19,8 @@ namespace mustache = kainjow::mustache;
 
 /// What is empty becomes false, since the template language takes an empty text for something.
 mustache::data to_mustache(const nlohmann::json& json) {
-  if (json.empty() || json.is_boolean()) return json.is_boolean() && json.get<bool>();
+  if (json.is_boolean()) return json.get<bool>();
+  if (json.empty()) return false;
   if (json.is_string()) {
     const auto& text = json.get_ref<const std::string&>();
     return text.empty() ? mustache::data(false) : mustache::data(text);

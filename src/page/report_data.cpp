@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <limits>
 #include <string>
 #include <string_view>
 
@@ -13,6 +11,7 @@
 #include "page/pictures_data.h"
 #include "page/typeset.h"
 #include "study/numbers.h"
+#include "study/plan.h"
 
 namespace leafhull {
 namespace {
@@ -214,7 +213,7 @@ nlohmann::json report_data(const Study& study, std::span<const TreePlots> plots)
            study.trees.size() == 1 ? "one tree" : std::to_string(study.trees.size()) + " trees"},
           {"own_reading", reading_name(first.front().reading)},
           {"reading_count", std::to_string(first.size())},
-          {"resolution", "64"},
+          {"resolution", std::to_string(kResolution)},
           {"methods",
            {paper_name(Method::isotropic), paper_name(Method::uncontrolled),
             paper_name(Method::controlled)}},

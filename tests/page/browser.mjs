@@ -58,12 +58,12 @@ export function difference(a, b) {
 /** Scrolls to the first view; thumbnails of its canvases once each shows something. */
 export async function openView(page) {
   await page.locator('.view').first().scrollIntoViewIfNeeded();
-  for (let wait = 0; wait < 100; ++wait) {
+  for (let wait = 0; wait < 600; ++wait) {
     const pictures = await thumbnails(page);
     if (pictures.length === 3 && pictures.every((pixels) => covered(pixels) > 0)) return pictures;
     await page.waitForTimeout(100);
   }
-  throw new Error('no shape appeared in 10 seconds');
+  throw new Error('no shape appeared in a minute');
 }
 
 export { thumbnails as pictures };
