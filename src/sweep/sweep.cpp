@@ -27,7 +27,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kPictureWidth = 320, kPictureHeight = 320;
+constexpr int kPictureWidth = 256, kPictureHeight = 256;
 
 /// The names in a sweep's folder.
 struct Files {
