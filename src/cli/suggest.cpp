@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <cstdint>
 #include <future>
 #include <iostream>
 #include <nlohmann/json.hpp>
@@ -21,6 +23,10 @@ std::string command_for(const Arguments& arguments, const Suggestion& choice) {
          quoted(arguments.tree.stem().string() + "-shape.glb");
 }
 
+std::string volume(double value) {
+  return value < 1000 ? number(value, 4) : count(static_cast<std::uint64_t>(std::llround(value)));
+}
+
 std::string share(double fraction) { return number(100 * fraction, 3) + "%"; }
 
 void print_table(const Arguments& arguments, const std::vector<Suggestion>& choices) {
@@ -29,7 +35,7 @@ void print_table(const Arguments& arguments, const std::vector<Suggestion>& choi
   for (const Suggestion& choice : choices) {
     const Report& report = choice.report;
     rows.push_back({number(choice.coverage), number(choice.radius_max), number(report.threshold, 4),
-                    number(choice.dilated_volume, 4), share(choice.dilated_share),
+                    volume(choice.dilated_volume), share(choice.dilated_share),
                     choice.empty ? "no surface" : count(report.counts.components)});
   }
   std::cout << table(rows)

@@ -114,7 +114,8 @@ void run_sweep_verb(const Arguments& arguments) {
 
   bool begun = false;
   const SweepSummary summary = run_sweep(
-      leaves, plan, device, {arguments.folder, arguments.restart}, {arguments.tree.string(), arguments.command},
+      leaves, plan, device, {arguments.folder, arguments.restart},
+      {arguments.tree.string(), arguments.command},
       [&](std::string_view stage, std::size_t done, std::size_t all) {
         if (!std::exchange(begun, true) && done > 0) {
           console.say("leafhull: resuming: " + count(done) + " of " + count(all) + " done");

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/scene.h"
 
+#include <tbb/global_control.h>
+
 #include <array>
 #include <cmath>
 #include <limits>
@@ -43,10 +45,8 @@ std::array<Vec3f, 3> corner_normals(const Surface& surface, unsigned triangle, V
 
 }  // namespace
 
-// With threads of its own Embree would build another hierarchy each time, and so choose differently
-// among equally near hits.
 DeviceHandle open_embree() {
-  DeviceHandle device(rtcNewDevice("threads=1"));
+  DeviceHandle device(rtcNewDevice(nullptr));
   if (!device) throw Error(ErrorCode::internal, "Embree does not start");
   return device;
 }
@@ -61,6 +61,9 @@ Scene::Scene(RTCDevice device, std::vector<std::shared_ptr<const Surface>> surfa
   for (unsigned id = 0; id < surfaces_.size(); ++id) {
     rtcAttachGeometryByID(scene_.get(), surfaces_[id]->geometry.get(), id);
   }
+  // With several threads Embree would build another hierarchy each time, and so choose differently
+  // among equally near hits.
+  const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
   rtcCommitScene(scene_.get());
   if (rtcGetDeviceError(device) != RTC_ERROR_NONE) {
     throw Error(ErrorCode::internal, "Embree cannot build the scene");

@@ -47,8 +47,16 @@ Values drawn_values(const SweepPlan& plan, std::size_t axis) {
   const auto lines = [&] {
     return std::accumulate(counts.begin(), counts.end(), std::size_t{1}, std::multiplies<>());
   };
-  if (lines() > kMostLines) {
-    while (lines() > kFewLines) --*std::max_element(counts.begin(), counts.end());
+  // Numbers give way before names, which have nothing between them.
+  const auto rank = [&](std::size_t i) {
+    return std::pair(counts[i] > 2 && takes_number(*plan.swept[i].row), counts[i]);
+  };
+  while (plan.combinations.size() / along > kMostLines && lines() > kFewLines) {
+    std::size_t widest = 0;
+    for (std::size_t i = 1; i < counts.size(); ++i) {
+      if (rank(i) > rank(widest)) widest = i;
+    }
+    --counts[widest];
   }
   counts[axis] = along;
   Values values;

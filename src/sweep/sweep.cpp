@@ -27,7 +27,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kPictureWidth = 320, kPictureHeight = 320;
+constexpr int kPictureWidth = 256, kPictureHeight = 256;
 
 /// The names in a sweep's folder.
 struct Files {
@@ -108,6 +108,7 @@ bool is_result(const std::string& name) {
 
 /// Removes what the sweep of `journal` has written, and nothing else.
 void remove_results(const Files& files, const Journal& journal) {
+  if (journal.header().is_null()) return;
   for (const Json& result : journal.header().value("results", Json::array())) {
     const std::string name = result.is_string() ? result.get<std::string>() : "";
     if (is_result(name) && name.find('/') == std::string::npos) remove_file(files.folder / name);
@@ -199,6 +200,19 @@ std::vector<StageTime> extract_remaining(const LeafSet& leaves, const SweepPlan&
   return sums;
 }
 
+void write_tables(const Files& files, const SweepPlan& plan, const Journal& journal,
+                  const RunDescription& run) {
+  write_file(files.csv(), csv(plan, journal.rows()));
+  write_file(files.json(), sweep_json(journal.header(), journal.rows(), run));
+}
+
+void write_plots(const Files& files, const SweepPlan& plan, const Journal& journal,
+                 const std::string& tree) {
+  for (const Plot& plot : plots(plan, journal.rows(), tree)) {
+    write_file(files.folder / plot.file, svg(plot.chart));
+  }
+}
+
 void write_sheets(const Files& files, const SweepPlan& plan, const Journal& journal,
                   const std::string& tree) {
   const std::vector<Sheet> pages = sheets(plan);
@@ -241,37 +255,30 @@ SweepSummary run_sweep(const LeafSet& leaves, const SweepPlan& plan, Device& dev
                        const SweepFolder& folder, const RunDescription& run,
                        const SweepProgress& progress) {
   const Files files{folder.path};
-  const std::string tree = fs::path(run.input).filename().string();
   const Json header = header_of(identity(leaves, plan, device.info()), files, plan);
-
-  SweepSummary summary;
   make_folder(files.folder);
   if (!folder.restart && !fs::exists(files.journal())) check_nothing_is_lost(files, plan);
   Journal journal(files.journal());
-  if (folder.restart && !journal.header().is_null()) remove_results(files, journal);
+  if (folder.restart) remove_results(files, journal);
   if (folder.restart || journal.rows().empty()) journal.begin(header);
   check_same_sweep(journal.header(), header, files.folder);
   make_folder(files.pictures());
   remove_unfinished(files, plan);
+
+  SweepSummary summary;
+  summary.combinations = plan.combinations.size();
+  summary.resumed = summary.combinations - remaining(files, plan, journal).size();
   if (!can_draw_charts()) {
     summary.warnings.emplace_back("no plots are drawn: gnuplot is missing (gnuplot-nox in Debian)");
   }
-
-  summary.combinations = plan.combinations.size();
-  summary.resumed = summary.combinations - remaining(files, plan, journal).size();
   summary.seconds = extract_remaining(leaves, plan, device, files, journal, progress);
-
-  if (progress) progress("tables", summary.combinations, summary.combinations);
-  write_file(files.csv(), csv(plan, journal.rows()));
-  write_file(files.json(), sweep_json(header, journal.rows(), run));
-  if (can_draw_charts()) {
-    for (const Plot& plot : plots(plan, journal.rows(), tree)) {
-      write_file(files.folder / plot.file, svg(plot.chart));
-    }
-  }
-  if (progress) progress("sheets", summary.combinations, summary.combinations);
-  write_sheets(files, plan, journal, tree);
   for (const auto& [combination, row] : journal.rows()) summary.empty += row["empty"].get<bool>();
+
+  if (progress) progress("write", summary.combinations, summary.combinations);
+  write_tables(files, plan, journal, run);
+  const std::string tree = fs::path(run.input).filename().string();
+  if (can_draw_charts()) write_plots(files, plan, journal, tree);
+  write_sheets(files, plan, journal, tree);
   return summary;
 }
 

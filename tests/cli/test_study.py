@@ -37,7 +37,9 @@ class Study(CommandTest):
 
         study = self.study()
         self.assertEqual([tree["name"] for tree in study["trees"]], ["tree", "tree (2)"])
-        self.assertEqual(study["command"], ["leafhull", "study", "tree.glb", "tree.glb", "-o", "report"])
+        self.assertEqual(
+            study["command"], ["leafhull", "study", "tree.glb", "tree.glb", "-o", "report"]
+        )
         self.assertNotIn(str(self.folder), json.dumps(study))
         blocks = result.stdout.strip().split("\n\n")
         self.assertEqual(len(blocks), 2)
@@ -71,12 +73,13 @@ class Study(CommandTest):
         link = self.folder / "link.glb"
         link.symlink_to(self.tree)
         self.fail_with(2, ["link.glb", "twice"], "study", self.tree, link, "-o", self.report)
-        self.fail_with(2, ["--threshold"], "study", self.tree, "--threshold", "2", "-o", self.report)
+        self.fail_with(
+            2, ["--threshold"], "study", self.tree, "--threshold", "2", "-o", self.report
+        )
 
     def test_every_tree_is_read_before_the_first_is_studied(self):
         broken = self.input("broken.glb", b"glTF")
         for last in (broken, self.folder / "missing.glb"):
-            start = time.monotonic()
             self.fail_with(3, [last.name], "study", self.tree, last, "-o", self.report)
         self.fail_with(3, ["--leaves"], "study", self.tree, "--leaves", "no*", "-o", self.report)
 

@@ -133,6 +133,19 @@ TEST(SweepPlan, PlotsSayHowManyLinesTheyLeaveOut) {
   EXPECT_NE(chart.title.find("6 of 40 lines"), std::string::npos) << chart.title;
 }
 
+TEST(SweepPlan, PlotsLeaveOutNumbersBeforeNames) {
+  SweepPlan sweep = plan("1:7:1", "isotropic,uncontrolled,controlled");
+  sweep.swept.push_back(swept_option(row("flatness"), "0.5,1"));
+  sweep.combinations.assign(42, sweep.combinations[0]);
+  const Chart chart = plots(sweep, rows_of(sweep), "tree.glb").at(1).chart;
+  std::vector<std::string> names;
+  for (const ChartLine& line : chart.panels[0].lines) names.push_back(line.name);
+  EXPECT_EQ(names, (std::vector<std::string>{
+                       "method isotropic, threshold 1", "method isotropic, threshold 7",
+                       "method uncontrolled, threshold 1", "method uncontrolled, threshold 7",
+                       "method controlled, threshold 1", "method controlled, threshold 7"}));
+}
+
 TEST(SweepPlan, SheetsHoldEveryCombinationOnce) {
   for (const char* thresholds : {"1,2,3", "1:9:1", "1:11:1", "1:99:1", "1:4321:1"}) {
     const SweepPlan sweep = plan(thresholds, "isotropic,controlled");
