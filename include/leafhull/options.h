@@ -82,6 +82,9 @@ int resolution_of(Preset preset);
 /// @throws Error usage: a value out of range, or two options that contradict each other.
 Options resolve(Options options);
 
+/// R_max in model units. `resolved` as resolve() returns them. SPEC: 4.
+double radius_max_in_model_units(const LeafSet& leaves, const Options& resolved);
+
 /// One row per option: the flags, the report's parameters and README's table derive from it.
 struct OptionRow {
   using Member =

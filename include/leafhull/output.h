@@ -30,7 +30,7 @@ struct RunDescription {
 ///         output: a folder that does not exist or cannot be written to.
 void check_outputs(const OutputFiles& files, const std::filesystem::path& input);
 
-/// Looks at a folder for results before any work is done. It need not exist, its parent does.
+/// Looks at a folder for results before any work is done. It need not exist.
 /// @throws Error output: it could not be made or written to.
 void check_output_folder(const std::filesystem::path& folder);
 

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -51,15 +52,12 @@ struct SweepFolder {
   bool restart = false;        ///< what another sweep has left there is removed first
 };
 
-/// Looks at the folder before any work is done.
-/// @throws Error output: it is no folder, cannot be made, or may not be written to.
-void check_sweep_folder(const std::filesystem::path& folder);
-
 /// What a run of a sweep did.
 struct SweepSummary {
   std::size_t combinations = 0;
   std::size_t resumed = 0;         ///< of these, done by an earlier run
   std::size_t empty = 0;           ///< of these, without a surface
+  std::size_t failed = 0;          ///< of these, not computed; the rows say why
   std::vector<StageTime> seconds;  ///< of this run by stage, the total last
   std::vector<std::string> warnings;
 };
@@ -85,8 +83,9 @@ struct Suggestion {
   double coverage = 0, radius_max = 0;  ///< R_max in crown units
   bool empty = false;                   ///< no sample reaches T
   Report report;
-  double dilated_volume = 0;  ///< dilated voxels, model units cubed
-  double dilated_share = 0;   ///< the same as a fraction of the leaves' bounding box
+  double dilated_volume = 0;            ///< dilated voxels, model units cubed
+  std::optional<double> dilated_share;  ///< of the leaves' bounding box, where it has a volume
+  double covered = 0;  ///< of the leaf vertices; other than `coverage` where many have one density
 };
 
 /// What an artist would choose from: coverages 0.85, 0.92 and 0.98 by R_max 1.5, 2.5 and 4, all

@@ -14,6 +14,7 @@ constexpr std::size_t kFewIntervals = 24;
 /// 2.5, 40,000, and on an axis of millions 0.5 M.
 std::string text_of(double value, bool in_millions) {
   char text[40];
+  in_millions &= std::abs(value) >= kMillion / 10;
   std::snprintf(text, sizeof text, "%.6g", in_millions ? value / kMillion : value);
   std::string result = text;
   if (result.find_first_of(".e") == std::string::npos) {
@@ -22,7 +23,7 @@ std::string text_of(double value, bool in_millions) {
       result.insert(static_cast<std::size_t>(at), 1, ',');
     }
   }
-  return in_millions && value != 0 ? result + " M" : result;
+  return in_millions ? result + " M" : result;
 }
 
 /// 1, 2 or 5 times a power of ten, at least `least`.
@@ -37,10 +38,12 @@ double round_step(double least) {
 /// Multiples of `step` from `low` to `high`.
 std::vector<Tick> multiples(double step, double low, double high) {
   const bool in_millions = std::max(-low, high) >= kMillion;
-  const int first = static_cast<int>(std::ceil(low / step - 1e-9));
-  const int last = static_cast<int>(std::floor(high / step + 1e-9));
+  const double first = std::ceil(low / step - 1e-9), last = std::floor(high / step + 1e-9);
   std::vector<Tick> ticks;
-  for (int i = first; i <= last; ++i) ticks.push_back({i * step, text_of(i * step, in_millions)});
+  for (int i = 0; i <= last - first; ++i) {
+    const double value = (first + i) * step;
+    ticks.push_back({value, text_of(value, in_millions)});
+  }
   return ticks;
 }
 

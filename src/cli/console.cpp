@@ -10,6 +10,7 @@
 #include <string>
 
 #include "cli/values.h"
+#include "leafhull/error.h"
 
 namespace leafhull::cli {
 namespace {
@@ -35,7 +36,12 @@ std::string duration(double seconds) {
 }  // namespace
 
 Console::Console(bool quiet, bool verbose)
-    : quiet_(quiet), verbose_(verbose), bar_(!quiet && isatty(STDERR_FILENO) == 1) {}
+    : quiet_(quiet), verbose_(verbose), bar_(!quiet && isatty(STDERR_FILENO) == 1) {
+  if (quiet && verbose) {
+    throw Error(ErrorCode::usage, "--quiet and --verbose contradict each other",
+                "Give one of the two.");
+  }
+}
 
 Console::~Console() { clear_progress(); }
 

@@ -13,6 +13,7 @@ namespace leafhull::cli {
 /// What a person sees on standard error while a verb runs.
 class Console {
  public:
+  /// @throws Error usage: both.
   Console(bool quiet, bool verbose);
   ~Console();
 

@@ -68,10 +68,6 @@ std::vector<std::filesystem::path> named(const OutputFiles& files) {
 }
 
 void check_arguments(const Arguments& arguments) {
-  if (arguments.quiet && arguments.verbose) {
-    throw Error(ErrorCode::usage, "--quiet and --verbose contradict each other",
-                "Give one of the two.");
-  }
   if (named(arguments.files).empty()) {
     throw Error(ErrorCode::usage, "no output is named",
                 "Name one, such as -o shape.glb (or --save-kernels, --save-field, --report).");

@@ -58,8 +58,8 @@ Flag option_flag(const OptionRow& row) {
 
 void set_values(Arguments& arguments, const OptionRow& row, const std::string& text) {
   const SweptOption option = swept_option(row, text);
-  if (option.values.size() == 1) {
-    set_option(arguments.options, *option.row, option.values.front());
+  if (option.values.size() == 1 && option.values.front() == text) {
+    set_option(arguments.options, row, text);
   } else {
     arguments.swept.push_back(option);
   }

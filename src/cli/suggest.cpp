@@ -27,22 +27,26 @@ std::string volume(double value) {
   return value < 1000 ? number(value, 4) : count(static_cast<std::uint64_t>(std::llround(value)));
 }
 
-std::string share(double fraction) { return number(100 * fraction, 3) + "%"; }
+std::string percent(std::optional<double> fraction) {
+  return fraction ? number(100 * *fraction, 3) + "%" : "-";
+}
 
 void print_table(const Arguments& arguments, const std::vector<Suggestion>& choices) {
   std::vector<std::vector<std::string>> rows = {
-      {"coverage", "R_max", "T", "dilated volume", "of the box", "components"}};
+      {"coverage", "R_max", "T", "inside", "dilated volume", "of the box", "components"}};
   for (const Suggestion& choice : choices) {
     const Report& report = choice.report;
     rows.push_back({number(choice.coverage), number(choice.radius_max), number(report.threshold, 4),
-                    volume(choice.dilated_volume), share(choice.dilated_share),
+                    percent(choice.covered), volume(choice.dilated_volume),
+                    percent(choice.dilated_share),
                     choice.empty ? "no surface" : count(report.counts.components)});
   }
   std::cout << table(rows)
             << "\n"
-               "coverage        how much of the leaf vertices lies inside: lower is looser\n"
+               "coverage        how much of the leaf vertices shall lie inside: lower is thinner\n"
                "R_max           in crown units, 1/64 of the crown: larger is rounder\n"
                "                (what extract takes unasked: coverage 0.92, R_max 2.5)\n"
+               "inside          how much of them does: more where many have the same density\n"
                "dilated volume  what the shape fills beyond the leaves, model units cubed, and as\n"
                "                a share of the leaves' bounding box\n"
                "\nTry\n";
@@ -56,15 +60,17 @@ void print_json(const Arguments& arguments, const std::vector<Suggestion>& choic
   using Json = nlohmann::ordered_json;
   Json list = Json::array();
   for (const Suggestion& choice : choices) {
-    list.push_back({{"coverage", choice.coverage},
-                    {"radius_max", choice.radius_max},
-                    {"threshold", choice.report.threshold},
-                    {"empty", choice.empty},
-                    {"dilated_voxels", choice.report.metrics.dilated_voxels},
-                    {"dilated_volume", choice.dilated_volume},
-                    {"dilated_share_of_box", choice.dilated_share},
-                    {"components", choice.report.counts.components},
-                    {"command", command_for(arguments, choice)}});
+    list.push_back(
+        {{"coverage", choice.coverage},
+         {"radius_max", choice.radius_max},
+         {"threshold", choice.report.threshold},
+         {"empty", choice.empty},
+         {"dilated_voxels", choice.report.metrics.dilated_voxels},
+         {"dilated_volume", choice.dilated_volume},
+         {"dilated_share_of_box", choice.dilated_share ? Json(*choice.dilated_share) : Json()},
+         {"covered", choice.covered},
+         {"components", choice.report.counts.components},
+         {"command", command_for(arguments, choice)}});
   }
   const Json page = {
       {"input", arguments.tree.string()}, {"picture", picture.string()}, {"suggestions", list}};

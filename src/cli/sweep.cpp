@@ -19,12 +19,9 @@ constexpr std::size_t kMostUnasked = 10'000;
 void check_arguments(const Arguments& arguments) {
   const std::string example =
       "such as leafhull sweep " + quoted(arguments.tree.string()) + " --threshold 1.5:2.5:0.25 -o ";
-  if (arguments.quiet && arguments.verbose) {
-    throw Error(ErrorCode::usage, "--quiet and --verbose contradict each other",
-                "Give one of the two.");
-  }
   if (arguments.swept.empty()) {
-    throw Error(ErrorCode::usage, "no option has several values",
+    (void)resolve(arguments.options);
+    throw Error(ErrorCode::usage, "no option is swept",
                 "Give one a range or a list, " + example +
                     (arguments.folder.empty() ? "out" : quoted(arguments.folder)) + ".");
   }
@@ -93,7 +90,7 @@ void run_sweep_verb(const Arguments& arguments) {
   check_arguments(arguments);
   const SweepPlan plan = plan_of(arguments);
   const std::string folder = arguments.folder.string();
-  check_sweep_folder(arguments.folder);
+  check_output_folder(arguments.folder);
   catch_signals();
 
   std::future<Device> opening = open_device(arguments.device, first_falloff(plan));
@@ -108,9 +105,11 @@ void run_sweep_verb(const Arguments& arguments) {
   console.detail("device      " + device.info().name);
   console.detail("leaves      " + count(leaves.leaf_count) + " with " +
                  count(leaves.vertices.size()) + " vertices");
-  catch_signals(arguments.quiet ? ""
-                                : "leafhull: stopped; what is done is in " + folder +
-                                      ": the same command goes on from there\n");
+  catch_signals(arguments.quiet
+                    ? ""
+                    : "leafhull: stopped; what is done is in " + folder + ": the same command" +
+                          (arguments.restart ? " without --restart" : "") +
+                          " goes on from there\n");
 
   bool begun = false;
   const SweepSummary summary = run_sweep(

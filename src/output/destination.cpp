@@ -49,17 +49,23 @@ bool may_access(const fs::path& path, int mode) {
 }  // namespace
 
 void check_output_folder(const fs::path& name) {
-  const fs::path folder = name.has_filename() ? name : name.parent_path();  // "out/" is "out"
   std::error_code error;
-  const fs::file_status status = fs::status(folder, error);
-  const bool missing = status.type() == fs::file_type::not_found;
-  if (error && !missing) throw write_error(name, error.value());
-  if (!missing && !fs::is_directory(status)) {
-    throw Error(ErrorCode::output, "cannot write to " + name.string() + ": it is not a folder",
+  fs::path existing = fs::absolute(name, error);
+  while (!error && !fs::exists(existing, error) && existing.has_relative_path()) {
+    existing = existing.parent_path();
+  }
+  if (error) throw write_error(name, error.value());
+  if (!fs::is_directory(existing)) {
+    throw Error(ErrorCode::output,
+                "cannot write into " + name.string() + ": " + existing.string() + " is no folder",
                 "Name a folder.");
   }
-  const fs::path place = missing ? existing_folder(folder.parent_path(), name) : folder;
-  if (!may_access(place, W_OK | X_OK)) throw write_error(name, errno);
+  if (!may_access(existing, W_OK | X_OK)) {
+    throw Error(
+        ErrorCode::output,
+        "cannot write into " + name.string() + ": " + existing.string() + " may not be written to",
+        "Name another folder.");
+  }
 }
 
 fs::path resolve_destination(const fs::path& name) {

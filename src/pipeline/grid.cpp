@@ -19,18 +19,6 @@ constexpr double kMostVoxelsOfGridDensity = 1e6 * (1 + 1e-9);
 /// A radius beyond this many crowns is a slip, and its support a lattice without end.
 constexpr double kLargestRadius = 100;
 
-double radius_in_model_units(const LeafSet& leaves, const Options& options) {
-  switch (options.radius_unit) {
-    case RadiusUnit::crown:
-      return *options.radius_max * leaves.bounds.longest_side() / kCrownUnits;
-    case RadiusUnit::leaf:
-      return *options.radius_max * leaves.mean_radius_major;
-    case RadiusUnit::model:
-      return *options.radius_max;
-  }
-  throw Error(ErrorCode::internal, "unknown radius unit");
-}
-
 std::string number(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.4g", value);
@@ -93,7 +81,7 @@ void check_voxels(const LeafSet& leaves, double side, double voxel_size, Density
 
 Lattice set_grid(const LeafSet& leaves, Report& report) {
   const Options& options = report.options;
-  report.radius_max_model = radius_in_model_units(leaves, options);
+  report.radius_max_model = radius_max_in_model_units(leaves, options);
   check_radii(leaves, report.radius_max_model);
   const double side = leaves.bounds.longest_side() + 2 * report.radius_max_model;
   report.voxel_size = options.voxel_size ? *options.voxel_size : side / *options.resolution;

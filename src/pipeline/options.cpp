@@ -134,6 +134,18 @@ std::span<const std::string_view> names(Preset) { return kPresetNames; }
 
 int resolution_of(Preset preset) { return kPresetResolutions[static_cast<std::size_t>(preset)]; }
 
+double radius_max_in_model_units(const LeafSet& leaves, const Options& resolved) {
+  switch (resolved.radius_unit) {
+    case RadiusUnit::crown:
+      return *resolved.radius_max * leaves.bounds.longest_side() / kCrownUnits;
+    case RadiusUnit::leaf:
+      return *resolved.radius_max * leaves.mean_radius_major;
+    case RadiusUnit::model:
+      return *resolved.radius_max;
+  }
+  throw Error(ErrorCode::internal, "unknown radius unit");
+}
+
 Options resolve(Options options) {
   for (const OptionRow& row : option_table()) {
     std::visit([&](auto member) { check(row, options.*member); }, row.member);

@@ -2,9 +2,11 @@
 #include "leafhull/series.h"
 
 #include <algorithm>
+#include <string>
 #include <utility>
 #include <vector>
 
+#include "leafhull/error.h"
 #include "pipeline/finish_mesh.h"
 #include "pipeline/grid.h"
 #include "pipeline/stages.h"
@@ -19,7 +21,8 @@ struct Entry {
   Report report;
 };
 
-/// The series in groups, so ordered that the next group shares the most with the last.
+/// The series in groups that can share a field, so ordered that the next shares the most with the
+/// last.
 std::vector<std::vector<Entry>> groups_of(const LeafSet& leaves, std::span<const Options> series) {
   std::vector<std::pair<FieldKey, Entry>> entries;
   for (std::size_t i = 0; i < series.size(); ++i) {
@@ -45,45 +48,95 @@ std::vector<double> thresholds_of(std::span<const Entry> group) {
   return thresholds;
 }
 
-/// Entries that share a field, ascending by T; where it does not fit in memory, halves share one.
-/// False where the visitor ends the series.
-bool visit_group(std::span<Entry> group, Stages& stages, Stopwatch& watch,
-                 const SeriesVisitor& visit) {
-  const std::vector<double> thresholds = thresholds_of(group);
-  if (thresholds.size() > 1 && !stages.memory(group.front().report, thresholds).fits()) {
-    const std::size_t half = group.size() / 2;
-    return visit_group(group.first(half), stages, watch, visit) &&
-           visit_group(group.subspan(half), stages, watch, visit);
+/// Extracts entry by entry and hands each to the visitor until that says no.
+class Series {
+ public:
+  Series(const LeafSet& leaves, Device& device, const SeriesVisitor& visit,
+         const Progress& progress)
+      : watch_(progress), stages_(leaves, device, watch_), visit_(visit) {}
+
+  /// False where the visitor ends the series, as below.
+  bool extract(std::vector<Entry>& group) {
+    std::vector<Entry> prepared;
+    for (Entry& entry : group) {
+      const std::string failure = failure_of([&] { stages_.prepare(entry.report); });
+      if (failure.empty()) {
+        prepared.push_back(std::move(entry));
+      } else if (!fail({&entry, 1}, failure)) {
+        return false;
+      }
+    }
+    std::stable_sort(prepared.begin(), prepared.end(), [](const Entry& a, const Entry& b) {
+      return a.report.threshold < b.report.threshold;
+    });
+    return prepared.empty() || extract_at(prepared);
   }
-  const Field& sampled = stages.sample(group.front().report, thresholds);
-  for (Entry& entry : group) {
+
+ private:
+  /// Entries ascending by T; where the field of all does not fit in memory, halves share one.
+  bool extract_at(std::span<Entry> group) {
+    const Report& first = group.front().report;
+    const std::vector<double> thresholds = thresholds_of(group);
+    if (thresholds.size() > 1 && !stages_.memory(first, thresholds).fits()) {
+      const std::size_t half = group.size() / 2;
+      return extract_at(group.first(half)) && extract_at(group.subspan(half));
+    }
+    const Field* field = nullptr;
+    const std::string failure = failure_of([&] { field = &stages_.sample(first, thresholds); });
+    if (!failure.empty()) return fail(group, failure);
+    return std::all_of(group.begin(), group.end(), [&](Entry& entry) {
+      return extract(entry, field->at(entry.report.threshold));
+    });
+  }
+
+  bool extract(Entry& entry, const Field& field) {
     Report& report = entry.report;
-    const Field field = sampled.at(report.threshold);
     SeriesEntry result;
-    result.mesh = lattice_mesh(stages.polygonise(field, Mesher::bricks, report), field.lattice());
+    result.mesh = lattice_mesh(stages_.polygonise(field, Mesher::bricks, report), field.lattice());
     report.counts.mesh_vertices = result.mesh.positions.size();
     report.counts.mesh_triangles = result.mesh.triangles.size();
-    stages.measure(field, report);
-    report.seconds = watch.finish();
+    stages_.measure(field, report);
+    report.seconds = watch_.finish();
     result.report = std::move(report);
-    if (!visit(entry.index, std::move(result))) return false;
+    return visit_(entry.index, std::move(result));
   }
-  return true;
-}
+
+  /// What kept `work` from its end: options that do not suit the tree.
+  template <class Work>
+  static std::string failure_of(Work&& work) {
+    try {
+      work();
+      return {};
+    } catch (const Error& error) {
+      if (error.code() != ErrorCode::usage) throw;
+      return std::string(error.what()) + ". " + error.remedy();
+    }
+  }
+
+  bool fail(std::span<Entry> group, const std::string& failure) {
+    return std::all_of(group.begin(), group.end(), [&](Entry& entry) {
+      entry.report.seconds = watch_.finish();
+      return visit_(entry.index, {std::move(entry.report), {}, failure});
+    });
+  }
+
+  Stopwatch watch_;
+  Stages stages_;
+  const SeriesVisitor& visit_;
+};
 
 }  // namespace
+
+void check_series(const LeafSet& leaves, std::span<const Options> options) {
+  groups_of(leaves, options);
+}
 
 void extract_series(const LeafSet& leaves, std::span<const Options> options, Device& device,
                     const SeriesVisitor& visit, const Progress& progress) {
   const ThreadLimit limit(device);
-  Stopwatch watch(progress);
-  Stages stages(leaves, device, watch);
+  Series series(leaves, device, visit, progress);
   for (std::vector<Entry>& group : groups_of(leaves, options)) {
-    for (Entry& entry : group) stages.prepare(entry.report);
-    std::stable_sort(group.begin(), group.end(), [](const Entry& a, const Entry& b) {
-      return a.report.threshold < b.report.threshold;
-    });
-    if (!visit_group(group, stages, watch, visit)) return;
+    if (!series.extract(group)) return;
   }
 }
 

@@ -109,7 +109,8 @@ void Stages::prepare(Report& report) {
   report.threshold = threshold_of(options, report.density, density_there_.value);
 }
 
-FieldMemory Stages::memory(const Report& prepared, const std::vector<double>& thresholds) const {
+FieldMemory Stages::memory(const Report& prepared, const std::vector<double>& thresholds) {
+  sampled_.forget();
   return {kernels_.value, hash_.value, leaves_.bounds, prepared, thresholds, available_memory()};
 }
 

@@ -25,10 +25,14 @@ class Kept {
   template <class Work>
   void update(const Key& key, Work&& work) {
     if (key_ == key) return;
-    key_.reset();
-    value = Value();  // gives its memory back before the next is made
+    forget();  // gives its memory back before the next is made
     value = work();
     key_ = key;
+  }
+
+  void forget() {
+    key_.reset();
+    value = Value();
   }
 
   Value value{};
@@ -59,8 +63,8 @@ class Stages {
   /// of the grid, the density, T, the leaves and the device.
   void prepare(Report& report);
 
-  /// What sample() would take.
-  FieldMemory memory(const Report& prepared, const std::vector<double>& thresholds) const;
+  /// What sample() would take, the last field given back.
+  FieldMemory memory(const Report& prepared, const std::vector<double>& thresholds);
 
   /// Step 6, after prepare(): N where a surface can be, for all of `thresholds`, ascending.
   /// @throws Error usage where it does not fit in memory.

@@ -29,7 +29,7 @@ std::string gained(double count) {
   const bool whole = size >= 10 || size == std::floor(size);
   const std::string text =
       whole ? grouped(static_cast<std::uint64_t>(std::llround(size))) : fixed(size, 1);
-  return (count < 0 ? "-" : "+") + text;
+  return text + (count < 0 ? " fewer" : " more");
 }
 
 std::string shortest(double value) { return print("%.*g", 4, value); }

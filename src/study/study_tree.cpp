@@ -44,6 +44,7 @@ class Steps {
 void measure(const Plan& plan, const LeafSet& leaves, Device& device, Steps& steps) {
   steps.start("tables");
   extract_series(leaves, plan.options, device, [&](std::size_t i, SeriesEntry&& entry) {
+    if (!entry.failure.empty()) throw Error(ErrorCode::usage, entry.failure);
     for (StudyRow* row : plan.rows[i]) {
       row->empty = entry.empty();
       row->metrics = entry.report.metrics;

@@ -53,14 +53,16 @@ class Roots {
   std::vector<std::uint32_t> parent_;
 };
 
-/// The volume that each component encloses, times six, at its root vertex.
+/// The volume that each component encloses, times twelve, at its root vertex. A quad counts as the
+/// mean of its two foldings, so that it does not matter at which corner it begins.
 std::vector<double> volumes(const Polygons& polygons, const Roots& root) {
   std::vector<double> part(polygons.faces.size());
   tbb::parallel_for(std::size_t{0}, part.size(), [&](std::size_t f) {
     const auto [a, b, c, d] = polygons.faces[f];
     const Vec3d from(polygons.points[root[a]]);
     const auto corner = [&](std::uint32_t v) { return Vec3d(polygons.points[v]) - from; };
-    part[f] = dot(corner(a), cross(corner(b), corner(c)) + cross(corner(c), corner(d)));
+    const Vec3d p = corner(a), q = corner(b), r = corner(c), s = corner(d);
+    part[f] = dot(p, cross(q, r) + cross(r, s) + cross(q, s)) + dot(q, cross(r, s));
   });
   std::vector<double> volume(polygons.points.size(), 0.0);
   for (std::size_t f = 0; f < part.size(); ++f) volume[root[polygons.faces[f][0]]] += part[f];

@@ -148,18 +148,6 @@ std::vector<std::string_view> values_of(const SweepPlan& plan, std::size_t combi
   return values;
 }
 
-double radius_max_in_model_units(const LeafSet& leaves, const Options& options) {
-  switch (options.radius_unit) {
-    case RadiusUnit::crown:
-      return *options.radius_max * leaves.bounds.longest_side() / kCrownUnits;
-    case RadiusUnit::leaf:
-      return *options.radius_max * leaves.mean_radius_major;
-    case RadiusUnit::model:
-      return *options.radius_max;
-  }
-  throw Error(ErrorCode::internal, "unknown radius unit");
-}
-
 std::vector<std::string> labels(const SweepPlan& plan, std::size_t combination) {
   const std::vector<std::string_view> values = values_of(plan, combination);
   std::vector<std::string> labels;

@@ -28,9 +28,6 @@ bool takes_number(const OptionRow& row);
 /// The values of the swept options in a combination.
 std::vector<std::string_view> values_of(const SweepPlan& plan, std::size_t combination);
 
-/// R_max of the combination, model units.
-double radius_max_in_model_units(const LeafSet& leaves, const Options& options);
-
 /// "threshold 1.5, radius-max 4": the swept options of a combination with their values.
 std::vector<std::string> labels(const SweepPlan& plan, std::size_t combination);
 

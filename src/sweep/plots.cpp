@@ -116,7 +116,7 @@ ChartPanel panel(const SweepPlan& plan, const std::map<std::size_t, Json>& rows,
     if (!is_drawn(values, drawn)) continue;
     ChartLine& line = line_named(panel.lines, line_name(plan, axis, combination));
     line.x.push_back(number(values[axis]));
-    line.y.push_back(row["empty"].get<bool>() ? NAN : row["metrics"][metric].get<double>());
+    line.y.push_back(row["failure"].is_null() ? row["metrics"][metric].get<double>() : NAN);
   }
   for (ChartLine& line : panel.lines) sort_by_x(line);
   return panel;

@@ -2,8 +2,6 @@
 // A sweep: the folder, what is done of it, and the rest.
 #include "leafhull/sweep.h"
 
-#include <fcntl.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -58,11 +56,14 @@ void write_picture(const fs::path& file, const Picture& picture) {
 Picture read_picture(const fs::path& file) {
   std::ifstream stream(file, std::ios::binary);
   const std::vector<char> bytes{std::istreambuf_iterator<char>(stream), {}};
+  return decode_png({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
+}
+
+bool is_picture(const fs::path& file) {
   try {
-    return decode_png({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
+    return !read_picture(file).rgb.empty();
   } catch (const Error&) {
-    throw Error(ErrorCode::output, file.string() + " cannot be read back",
-                "Remove it and run the same command again.");
+    return false;
   }
 }
 
@@ -129,12 +130,12 @@ Json header_of(const Json& identity, const Files& files, const SweepPlan& plan) 
   return header;
 }
 
-/// The combinations that are still to do: not in the journal, or their pictures are gone.
+/// The combinations that are still to do: not in the journal, or without their pictures.
 std::vector<std::size_t> remaining(const Files& files, const SweepPlan& plan,
                                    const Journal& journal) {
   std::vector<std::size_t> todo;
   for (std::size_t i = 0; i < plan.combinations.size(); ++i) {
-    if (!journal.rows().contains(i) || !fs::exists(files.pictures() / picture_name(plan, i))) {
+    if (!journal.rows().contains(i) || !is_picture(files.pictures() / picture_name(plan, i))) {
       todo.push_back(i);
     }
   }
@@ -190,7 +191,7 @@ std::vector<StageTime> extract_remaining(const LeafSet& leaves, const SweepPlan&
     const std::chrono::duration<double> seconds = Clock::now() - begin;
     add_stage(entry.report.seconds, "picture", seconds.count());
     add_times(sums, entry.report.seconds);
-    journal.append(row_of(todo[index], "pictures/" + name, entry.report, entry.empty()));
+    journal.append(row_of(todo[index], "pictures/" + name, entry));
     ++done;
     tell("picture");
     return true;
@@ -234,28 +235,12 @@ void write_sheets(const Files& files, const SweepPlan& plan, const Journal& jour
 
 }  // namespace
 
-void check_sweep_folder(const fs::path& folder) {
-  std::error_code error;
-  fs::path existing = fs::absolute(folder, error);
-  while (!error && !fs::exists(existing, error) && existing.has_relative_path()) {
-    existing = existing.parent_path();
-  }
-  if (error) throw write_error(folder, error.value());
-  if (!fs::is_directory(existing)) {
-    throw Error(ErrorCode::output,
-                "cannot write into " + folder.string() + ": " + existing.string() + " is a file",
-                "Name a folder.");
-  }
-  if (::faccessat(AT_FDCWD, existing.c_str(), W_OK | X_OK, AT_EACCESS) != 0) {
-    throw write_error(folder, errno);
-  }
-}
-
 SweepSummary run_sweep(const LeafSet& leaves, const SweepPlan& plan, Device& device,
                        const SweepFolder& folder, const RunDescription& run,
                        const SweepProgress& progress) {
   const Files files{folder.path};
   const Json header = header_of(identity(leaves, plan, device.info()), files, plan);
+  check_series(leaves, plan.combinations);
   make_folder(files.folder);
   if (!folder.restart && !fs::exists(files.journal())) check_nothing_is_lost(files, plan);
   Journal journal(files.journal());
@@ -268,17 +253,22 @@ SweepSummary run_sweep(const LeafSet& leaves, const SweepPlan& plan, Device& dev
   SweepSummary summary;
   summary.combinations = plan.combinations.size();
   summary.resumed = summary.combinations - remaining(files, plan, journal).size();
-  if (!can_draw_charts()) {
+  const bool with_plots = !plot_files(plan).empty() && can_draw_charts();
+  if (!with_plots && !plot_files(plan).empty()) {
     summary.warnings.emplace_back("no plots are drawn: gnuplot is missing (gnuplot-nox in Debian)");
   }
   summary.seconds = extract_remaining(leaves, plan, device, files, journal, progress);
-  for (const auto& [combination, row] : journal.rows()) summary.empty += row["empty"].get<bool>();
+  for (const auto& [combination, row] : journal.rows()) {
+    const bool failed = !row["failure"].is_null();
+    summary.empty += row["empty"].get<bool>() && !failed;
+    if (failed && summary.failed++ == 0) summary.warnings.push_back(row["failure"]);
+  }
 
   if (progress) progress("write", summary.combinations, summary.combinations);
   write_tables(files, plan, journal, run);
   const std::string tree = fs::path(run.input).filename().string();
-  if (can_draw_charts()) write_plots(files, plan, journal, tree);
   write_sheets(files, plan, journal, tree);
+  if (with_plots) write_plots(files, plan, journal, tree);
   return summary;
 }
 

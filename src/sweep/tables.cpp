@@ -25,9 +25,15 @@ std::string key_of(const SweptOption& option) {
   return key;
 }
 
+/// Quoted as RFC 4180 says where it has to be.
 std::string cell(const Json& value) {
   if (value.is_null()) return "";
-  return value.is_string() ? value.get<std::string>() : value.dump();
+  if (!value.is_string()) return value.dump();
+  const auto text = value.get<std::string>();
+  if (text.find_first_of(",\"\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + "\"";
 }
 
 /// The keys that any row has in `part`, in the order of their first appearance.
@@ -70,7 +76,7 @@ std::vector<Column> columns(const SweepPlan& plan, const std::map<std::size_t, J
   for (const std::string& key : keys(rows, "seconds")) {
     columns.push_back(column_of("seconds_" + key, "seconds", key));
   }
-  for (const char* key : {"empty", "picture"}) {
+  for (const char* key : {"empty", "failure", "picture"}) {
     columns.push_back({key, [key](std::size_t, const Json& row) { return row[key]; }});
   }
   return columns;
@@ -78,15 +84,22 @@ std::vector<Column> columns(const SweepPlan& plan, const std::map<std::size_t, J
 
 }  // namespace
 
-Json row_of(std::size_t combination, const std::string& picture, const Report& report, bool empty) {
-  Json whole = report_object(report, {});
-  Json row = {{"row", combination}, {"picture", picture}, {"empty", empty}};
+Json row_of(std::size_t combination, const std::string& picture, const SeriesEntry& entry) {
+  Json whole = report_object(entry.report, {});
+  Json row = {{"row", combination}, {"picture", picture}, {"empty", entry.empty()}};
+  row["failure"] = entry.failure.empty() ? Json() : Json(entry.failure);
   for (const char* part : {"parameters", "metrics", "counts", "density", "seconds"}) {
     row[part] = std::move(whole[part]);
   }
   // What was evaluated served several combinations, others where the sweep was cut off.
   row["counts"].erase("evaluated_voxels");
   row["counts"].erase("evaluated_pairs");
+  if (!entry.failure.empty()) {
+    row["parameters"]["threshold"] = nullptr;
+    for (const char* part : {"metrics", "counts", "density"}) {
+      for (Json& value : row[part]) value = nullptr;
+    }
+  }
   return row;
 }
 

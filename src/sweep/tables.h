@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "leafhull/series.h"
 #include "leafhull/sweep.h"
 
 namespace leafhull {
@@ -12,8 +13,8 @@ namespace leafhull {
 using Json = nlohmann::ordered_json;
 
 /// A combination's line of the journal: parameters, counts, density, metrics and seconds as in a
-/// report.
-Json row_of(std::size_t combination, const std::string& picture, const Report& report, bool empty);
+/// report; null where it could not be computed, which `failure` says why.
+Json row_of(std::size_t combination, const std::string& picture, const SeriesEntry& entry);
 
 /// sweep.csv: a line per combination, the swept options first.
 std::string csv(const SweepPlan& plan, const std::map<std::size_t, Json>& rows);

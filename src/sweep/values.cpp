@@ -159,6 +159,9 @@ SweptOption swept_option(const OptionRow& row, std::string_view text) {
   std::vector<std::string_view> parts = split(text, is_range ? ':' : ',');
   if (!is_number) {
     const std::vector<std::string> names(parts.begin(), parts.end());
+    if (std::find(names.begin(), names.end(), "") != names.end()) {
+      refuse(row, text, "holds an empty name", "Give names between the commas.");
+    }
     refuse_twice(row, text, names);
     return {&row, names};
   }

@@ -106,6 +106,30 @@ TEST(Series, OneFieldServesAllThresholds) {
   }
 }
 
+TEST(Series, NineThresholdsCostLessThanThreeExtractions) {
+  std::vector<Options> series;
+  for (int i = 0; i < 9; ++i) series.push_back(thin(1.5 + 0.125 * i));
+  const Counts alone = extract(ash(), series[4], device()).report.counts;
+  for (const auto& [index, entry] : entries_of(series)) {
+    EXPECT_LT(entry.report.counts.evaluated_voxels, 3 * alone.evaluated_voxels);
+    EXPECT_LT(entry.report.counts.evaluated_pairs, 3 * alone.evaluated_pairs);
+  }
+}
+
+TEST(Series, AnEntryThatCannotBeComputedSaysWhy) {
+  std::vector<Options> series{thin(2), thin(2), thin(1)};
+  series[1].preset.reset();
+  series[1].resolution = 900'000;
+  const auto entries = entries_of(series);
+  ASSERT_EQ(entries.size(), 3u);
+  EXPECT_NE(entries.at(1).failure.find("GiB"), std::string::npos) << entries.at(1).failure;
+  EXPECT_TRUE(entries.at(1).empty());
+  for (const std::size_t other : {0, 2}) {
+    EXPECT_EQ(entries.at(other).failure, "");
+    expect_as_alone(entries.at(other), series[other]);
+  }
+}
+
 TEST(Series, AnEntryWithoutASurfaceIsEmpty) {
   const std::vector<Options> series{thin(1e6), thin(2)};
   const auto entries = entries_of(series);

@@ -209,9 +209,10 @@ TEST(StudyVerdict, GrowthUnderTheRadiusIsLessThanUnderTheThreshold) {
       << "a fall is less than any growth";
   EXPECT_EQ(outcome(figures11_and_13({300, 200, 100}, {300, 300, 300}), "4b"), Outcome::fails)
       << "but not less than a greater fall";
-  EXPECT_EQ(verdict(figures11_and_13({1100, 2200, 3300}, {300, 200, 270}), "4b").figures,
-            "R_max 1.4 to 1.6: -30, T 1.5 to 2.5: +2,200; for each percent of the parameter -2.3 "
-            "and +44");
+  EXPECT_EQ(
+      verdict(figures11_and_13({1100, 2200, 3300}, {300, 200, 270}), "4b").figures,
+      "R_max 1.4 to 1.6: 30 fewer, T 1.5 to 2.5: 2,200 more; for each percent of the parameter "
+      "2.3 fewer and 44 more");
 }
 
 TEST(StudyVerdict, LambdaIsLowered) {
