@@ -68,15 +68,15 @@ export async function openView(page) {
 
 export { thumbnails as pictures };
 
-/** Widths of what sticks out of the window, but for what scrolls by itself. */
-export const overflow = (page) => page.evaluate(() => {
+/** What sticks out of the window, but for what is hidden and what `scrolls` by itself. */
+export const overflow = (page, scrolls = '.scroll, .chart') => page.evaluate((scrolls) => {
   const width = document.documentElement.clientWidth;
-  const scrolls = (element) => element.closest('.scroll, .chart, .skip, .symbols, caption');
+  const may = (element) => element.closest('.skip, .symbols, caption') || element.closest(scrolls);
   return [...document.querySelectorAll('body *')]
-    .filter((element) => !scrolls(element) && element.getBoundingClientRect().right > width + 1)
+    .filter((element) => !may(element) && element.getBoundingClientRect().right > width + 1)
     .map((element) => `${element.tagName}.${element.className} ends at ` +
       `${element.getBoundingClientRect().right} of ${width}`);
-});
+}, scrolls);
 
 /** Texts whose contrast to the page is below 4.5 to 1. */
 export const faint = (page) => page.evaluate(() => {
