@@ -158,13 +158,17 @@ Json parameters(const TreeStudy& tree, const TreePlots* plots) {
 
 Json tree_data(const TreeStudy& tree, std::size_t index, const TreePlots* plots) {
   const ReadingStudy& own = tree.readings.front();
+  const Json shapes = shapes_data(tree);
+  const bool turns =
+      std::ranges::any_of(shapes, [](const Json& shape) { return shape["mesh"].is_object(); });
   const int runs = own.table2.empty() ? 0 : own.table2.front().runs;
   return {{"id", "tree-" + std::to_string(index + 1)},
           {"name", tree.name},
           {"leaves", grouped(tree.leaves)},
           {"leaf_vertices", grouped(tree.leaf_vertices)},
           {"duration", duration_text(tree.seconds)},
-          {"shapes", shapes_data(tree)},
+          {"shapes", shapes},
+          {"turns", turns},
           {"table1", table1(tree, own)},
           {"parameters", parameters(tree, plots)},
           {"runs", runs > 0 ? std::to_string(runs) : ""},

@@ -9,7 +9,7 @@ import unittest
 import glb
 from command import CommandTest
 from test_interrupt import listen_to_interrupts
-from test_output import disk
+from test_output import FULL, disk
 
 CLAIMS = ["1a", "1b", "2a", "2b", "3a", "3b", "4a", "4b", "5a", "5b", "6"]
 WORDS = {"holds": "holds", "fails": "does not hold", "open": "cannot be told"}
@@ -100,10 +100,12 @@ class Study(CommandTest):
             self.fail_with(5, ["out"], "study", "no.glb", "-o", folder)
 
     def test_full_disk_leaves_nothing(self):
-        command = ("study", self.bare(), "-o")
-        self.succeed(*command, self.folder)  # has the OpenCL compiler's files written
+        bare = self.bare().read_bytes()
+        trees = [self.input(f"bare{i}.glb", bare) for i in range(12)]  # for a report beyond FULL
+        self.succeed("study", *trees, "-o", self.folder)
+        self.assertGreater((self.folder / "report.html").stat().st_size, FULL)
         for folder in (self.report, self.out):
-            self.fail_with(5, ["report.html"], *command, folder, **disk(1 << 16))
+            self.fail_with(5, ["report.html"], "study", *trees, "-o", folder, **disk(FULL))
 
     def test_interrupted_while_files_are_written_it_leaves_nothing(self):
         command = [os.environ["LEAFHULL"], "study", str(self.bare()), "-o", str(self.out)]

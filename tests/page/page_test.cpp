@@ -127,6 +127,7 @@ TEST(Page, DoesWithoutPicturesAndMeshes) {
   tree.bounds = {};
   const std::string page = page_of({.trees = {tree}});
   EXPECT_FALSE(holds(page, "image/jpeg"));
+  EXPECT_FALSE(holds(text_of(page), "These are still pictures"));
   EXPECT_PRED_FORMAT2(IsSubstring, "birch 4,000 no surface 3,000", text_of(page));
 }
 

@@ -72,6 +72,15 @@ test('what moves one view moves all, and Reset brings them back', async () => {
   assert.deepEqual(page.faults, []);
 });
 
+test('the shapes of another tree stay', async () => {
+  const page = await open(browser);
+  const start = await openView(page);
+  await openView(page, 1);
+  await page.getByRole('button', { name: 'Zoom in' }).nth(1).click();
+  assertNoneChanged(start, await openView(page));
+  assert.deepEqual(page.faults, []);
+});
+
 test('keys turn a view that has the focus', async () => {
   const page = await open(browser);
   const start = await openView(page);
