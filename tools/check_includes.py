@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Checks who includes whom: each room of src/, and bench/, knows only the rooms and the third-party
-libraries of its row in ROOMS, and the public headers know nothing but the standard library."""
+libraries of its row in ROOMS, and the public headers know nothing but the standard library. No two
+headers define a type of one name, which a linker would take for one type."""
 
 import pathlib
 import re
@@ -56,6 +57,8 @@ SYSTEM = (
     "unistd.h",
 )
 
+NAMESPACE = re.compile(r"^namespace ([\w:]+) \{", re.MULTILINE)
+TYPE = re.compile(r"^(?:struct|class|enum class) ([\w:]+)[^;{]*\{", re.MULTILINE)
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]', re.MULTILINE)
 
 
@@ -96,8 +99,19 @@ def check(path, judge):
             yield f'{path.relative_to(ROOT)}: #include "{header}": {fault}'
 
 
+def types_of_two_headers():
+    definers = {}
+    for path in sorted([*(ROOT / "include").rglob("*.h"), *(ROOT / "src").rglob("*.h")]):
+        text = path.read_text(encoding="utf-8")
+        for name in TYPE.findall(text):
+            qualified = f"{NAMESPACE.search(text)[1]}::{name}"
+            first = definers.setdefault(qualified, path.relative_to(ROOT))
+            if first != path.relative_to(ROOT):
+                yield f"{path.relative_to(ROOT)}: {first} defines another {qualified}"
+
+
 def main():
-    faults = []
+    faults = list(types_of_two_headers())
     for path in sorted((ROOT / "include").rglob("*.h")):
         faults += check(path, fault_in_public)
     for path in sorted([*(ROOT / "src").glob("*/**/*"), *(ROOT / "bench").rglob("*")]):

@@ -81,7 +81,7 @@ struct TreeStudy {
 struct Study {
   std::vector<TreeStudy> trees;
   std::string version, device, machine, date;  ///< date: YYYY-MM-DD
-  std::vector<std::string> command;
+  std::string command;                         ///< for a POSIX shell
   double seconds = 0;
 };
 
@@ -106,8 +106,8 @@ std::vector<Verdict> verdicts(const ReadingStudy& study);
 TreeStudy study_tree(const LeafSet& leaves, const std::string& name, Device& device,
                      const Progress& progress = {});
 
-/// Writes report.html, study.json and, where gnuplot is there, the plots as SVG files into
-/// `folder`, which is made where it is missing: all or none.
+/// Writes report.html, with curves where gnuplot is there, and study.json into `folder`, which is
+/// made where it is missing: both or neither.
 /// @throws Error output: which file and why.
 void write_study(const Study& study, const std::filesystem::path& folder);
 

@@ -64,12 +64,12 @@ std::vector<std::string> names_of(const std::vector<fs::path>& trees) {
   return names;
 }
 
-/// The words as typed, with names in place of paths: where this machine keeps its files is
+/// The command as typed, with names in place of paths: where this machine keeps its files is
 /// nobody's business.
-std::vector<std::string> without_folders(const Arguments& arguments) {
+std::string without_folders(const Arguments& arguments) {
   std::vector<fs::path> paths = arguments.trees;
   paths.push_back(arguments.folder);
-  std::vector<std::string> words = {"leafhull"};
+  std::string command = "leafhull";
   for (std::string word : std::span(arguments.command).subspan(1)) {
     for (const fs::path& path : paths) {
       if (!word.ends_with(path.string())) continue;
@@ -78,9 +78,9 @@ std::vector<std::string> without_folders(const Arguments& arguments) {
       word += named.filename().string();
       break;
     }
-    words.push_back(word);
+    command += ' ' + cli::quoted(word);
   }
-  return words;
+  return command;
 }
 
 std::string today() {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "page/figures.h"
 
-#include <cctype>
 #include <cmath>
 #include <span>
 
@@ -35,15 +34,6 @@ Chart chart(const ParameterFigures& figures, std::span<const ReadingStudy> readi
                            [](const StudyRow& row) { return row.off_site(); })}};
 }
 
-/// A tree's name without what a file's name cannot hold.
-std::string file_stem(std::string name) {
-  for (char& character : name) {
-    if (character == '/' || std::iscntrl(static_cast<unsigned char>(character)) != 0)
-      character = '-';
-  }
-  return name;
-}
-
 }  // namespace
 
 const std::array<ParameterFigures, 3> kParameterFigures{
@@ -66,12 +56,9 @@ std::vector<TreePlots> draw_plots(const Study& study) {
   for (const TreeStudy& tree : study.trees) {
     TreePlots& of_tree = plots.emplace_back();
     for (std::size_t i = 0; i < kParameterFigures.size(); ++i) {
-      const ParameterFigures& figures = kParameterFigures[i];
-      const std::string beginning =
-          file_stem(tree.name) + "-figure" + std::to_string(figures.curves);
       const std::span readings(tree.readings);
-      of_tree.first[i] = {beginning + ".svg", svg(chart(figures, readings.first(1)))};
-      of_tree.all[i] = {beginning + "-readings.svg", svg(chart(figures, readings))};
+      of_tree.first[i] = svg(chart(kParameterFigures[i], readings.first(1)));
+      of_tree.all[i] = svg(chart(kParameterFigures[i], readings));
     }
   }
   return plots;

@@ -24,14 +24,9 @@ extern const std::array<ParameterFigures, 3> kParameterFigures;
 /// "k = 2, standard deviation, exact density".
 std::string reading_name(const Reading& reading);
 
-/// A chart as a file of its own.
-struct Plot {
-  std::string file_name, svg;
-};
-
-/// The plots of one tree, by parameter: in the first reading, and in all of them.
+/// The plots of one tree as SVG, by parameter: in the first reading, and in all of them.
 struct TreePlots {
-  std::array<Plot, 3> first, all;
+  std::array<std::string, 3> first, all;
 };
 
 /// Dilated voxels and off-site vertices of CTRLED over each parameter, a line for each reading; no

@@ -89,9 +89,9 @@ nlohmann::json sheet_data(const std::vector<LabelledPicture>& pictures, const st
   return {{"cells", std::move(cells)}};
 }
 
-nlohmann::json plot_data(const Plot& plot, const std::string& alt) {
-  const std::span bytes(reinterpret_cast<const std::uint8_t*>(plot.svg.data()), plot.svg.size());
-  return {{"src", data_uri("image/svg+xml", bytes)}, {"file", plot.file_name}, {"alt", alt}};
+nlohmann::json plot_data(const std::string& svg, const std::string& alt) {
+  const std::span bytes(reinterpret_cast<const std::uint8_t*>(svg.data()), svg.size());
+  return {{"src", data_uri("image/svg+xml", bytes)}, {"alt", alt}};
 }
 
 }  // namespace leafhull

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "leafhull/study.h"
-#include "page/figures.h"
 
 namespace leafhull {
 
@@ -16,6 +15,6 @@ nlohmann::json shapes_data(const TreeStudy& tree);
 /// A contact sheet, false where it has no pictures.
 nlohmann::json sheet_data(const std::vector<LabelledPicture>& pictures, const std::string& tree);
 
-nlohmann::json plot_data(const Plot& plot, const std::string& alt);
+nlohmann::json plot_data(const std::string& svg, const std::string& alt);
 
 }  // namespace leafhull

@@ -25,26 +25,6 @@ std::string duration_text(double seconds) {
   return fixed(seconds / 60, 1) + " min";
 }
 
-/// As a shell would take it.
-std::string command_text(const std::vector<std::string>& command) {
-  constexpr std::string_view kPlain =
-      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_./=:,+%@";
-  std::string text;
-  for (const std::string& word : command) {
-    if (!text.empty()) text += ' ';
-    if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) {
-      text += word;
-      continue;
-    }
-    text += '\'';
-    for (const char character : word) {
-      text += character == '\'' ? std::string("'\\''") : std::string(1, character);
-    }
-    text += '\'';
-  }
-  return text;
-}
-
 // Table 1
 
 using Count = std::uint64_t (*)(const StudyRow&);
@@ -150,10 +130,10 @@ Json figure_rows(const ParameterFigures& figures, const ReadingStudy& own) {
   return rows;
 }
 
-Json curve_data(const ParameterFigures& figures, const Plot& plot, const std::string& tree) {
-  return plot_data(plot, "Curves of the dilated voxels and off-site vertices of " + tree +
-                             " over the " + std::string(figures.axis) +
-                             "; the numbers stand below.");
+Json curve_data(const ParameterFigures& figures, const std::string& svg, const std::string& tree) {
+  return plot_data(svg, "Curves of the dilated voxels and off-site vertices of " + tree +
+                            " over the " + std::string(figures.axis) +
+                            "; the numbers stand below.");
 }
 
 Json parameters(const TreeStudy& tree, const TreePlots* plots) {
@@ -178,13 +158,17 @@ Json parameters(const TreeStudy& tree, const TreePlots* plots) {
 
 Json tree_data(const TreeStudy& tree, std::size_t index, const TreePlots* plots) {
   const ReadingStudy& own = tree.readings.front();
+  const Json shapes = shapes_data(tree);
+  const bool turns =
+      std::ranges::any_of(shapes, [](const Json& shape) { return shape["mesh"].is_object(); });
   const int runs = own.table2.empty() ? 0 : own.table2.front().runs;
   return {{"id", "tree-" + std::to_string(index + 1)},
           {"name", tree.name},
           {"leaves", grouped(tree.leaves)},
           {"leaf_vertices", grouped(tree.leaf_vertices)},
           {"duration", duration_text(tree.seconds)},
-          {"shapes", shapes_data(tree)},
+          {"shapes", shapes},
+          {"turns", turns},
           {"table1", table1(tree, own)},
           {"parameters", parameters(tree, plots)},
           {"runs", runs > 0 ? std::to_string(runs) : ""},
@@ -207,7 +191,7 @@ nlohmann::json report_data(const Study& study, std::span<const TreePlots> plots)
           {"machine", study.machine},
           {"device", study.device},
           {"duration", duration_text(study.seconds)},
-          {"command", command_text(study.command)},
+          {"command", study.command},
           {"names", names},
           {"tree_count",
            study.trees.size() == 1 ? "one tree" : std::to_string(study.trees.size()) + " trees"},

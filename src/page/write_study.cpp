@@ -17,22 +17,19 @@ namespace fs = std::filesystem;
 void write_study(const Study& study, const fs::path& folder) {
   const std::vector<TreePlots> plots = draw_plots(study);
   std::error_code error;
-  fs::create_directory(folder, error);
+  const bool is_new = fs::create_directory(folder, error);
   if (error) throw write_error(folder, error.value());
-  Transaction transaction;
-  const auto write = [&](const fs::path& name, const auto& writer) {
-    transaction.write(folder / name, writer);
-  };
-  write("report.html", [&](std::ostream& stream) { write_report(study, plots, stream); });
-  write("study.json", [&](std::ostream& stream) { stream << study_json(study); });
-  for (const TreePlots& tree : plots) {
-    for (const auto& plots_of_tree : {tree.first, tree.all}) {
-      for (const Plot& plot : plots_of_tree) {
-        write(plot.file_name, [&](std::ostream& stream) { stream << plot.svg; });
-      }
-    }
+  try {
+    Transaction transaction;
+    transaction.write(folder / "report.html",
+                      [&](std::ostream& stream) { write_report(study, plots, stream); });
+    transaction.write(folder / "study.json",
+                      [&](std::ostream& stream) { stream << study_json(study); });
+    transaction.commit();
+  } catch (...) {
+    if (is_new) fs::remove(folder, error);
+    throw;
   }
-  transaction.commit();
 }
 
 }  // namespace leafhull

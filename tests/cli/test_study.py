@@ -1,14 +1,15 @@
 # SPDX-License-Identifier: Apache-2.0
 import json
 import os
+import shlex
 import signal
 import subprocess
-import time
 import unittest
 
 import glb
 from command import CommandTest
 from test_interrupt import listen_to_interrupts
+from test_output import FULL, disk
 
 CLAIMS = ["1a", "1b", "2a", "2b", "3a", "3b", "4a", "4b", "5a", "5b", "6"]
 WORDS = {"holds": "holds", "fails": "does not hold", "open": "cannot be told"}
@@ -38,7 +39,8 @@ class Study(CommandTest):
         study = self.study()
         self.assertEqual([tree["name"] for tree in study["trees"]], ["tree", "tree (2)"])
         self.assertEqual(
-            study["command"], ["leafhull", "study", "tree.glb", "tree.glb", "-o", "report"]
+            shlex.split(study["command"]),
+            ["leafhull", "study", "tree.glb", "tree.glb", "-o", "report"],
         )
         self.assertNotIn(str(self.folder), json.dumps(study))
         blocks = result.stdout.strip().split("\n\n")
@@ -97,16 +99,29 @@ class Study(CommandTest):
         for folder in (self.out, self.report):
             self.fail_with(5, ["out"], "study", "no.glb", "-o", folder)
 
-    def test_interrupted_it_leaves_nothing(self):
-        for delay in (0.2, 1.5):
+    def test_full_disk_leaves_nothing(self):
+        bare = self.bare().read_bytes()
+        trees = [self.input(f"bare{i}.glb", bare) for i in range(12)]  # for a report beyond FULL
+        self.succeed("study", *trees, "-o", self.folder)
+        self.assertGreater((self.folder / "report.html").stat().st_size, FULL)
+        for folder in (self.report, self.out):
+            self.fail_with(5, ["report.html"], "study", *trees, "-o", folder, **disk(FULL))
+
+    def test_interrupted_while_files_are_written_it_leaves_nothing(self):
+        command = [os.environ["LEAFHULL"], "study", str(self.bare()), "-o", str(self.out)]
+        for _ in range(5):
             process = subprocess.Popen(
-                [os.environ["LEAFHULL"], "study", str(self.tree), "-o", str(self.report)],
+                command,
                 stdout=subprocess.DEVNULL,
                 stderr=subprocess.PIPE,
                 preexec_fn=listen_to_interrupts,
             )
-            time.sleep(delay)
+            while process.poll() is None and not self.written():
+                pass
             process.send_signal(signal.SIGINT)
             _, text = process.communicate(timeout=60)
-            self.assertEqual(process.returncode, -signal.SIGINT, text)
-            self.assertEqual(self.written(), [])
+            if process.returncode == -signal.SIGINT:
+                return self.assertEqual(self.written(), [], text)
+            for name in self.written():
+                (self.out / name).unlink()
+        self.fail("no run could be caught while writing")

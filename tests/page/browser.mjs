@@ -31,18 +31,18 @@ export async function open(browser, { before, ...options } = {}) {
   return page;
 }
 
-/** Small copies of the first view's canvases, three numbers of colour and one of opacity a pixel. */
-const thumbnails = (page) => page.evaluate(async () => {
+/** Small copies of a view's canvases, three numbers of colour and one of opacity a pixel. */
+const thumbnails = (page, tree = 0) => page.evaluate(async (tree) => {
   const SIZE = 48;
   await new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve)));
-  const canvases = document.querySelector('.view').querySelectorAll('canvas');
+  const canvases = document.querySelectorAll('.view')[tree].querySelectorAll('canvas');
   return [...canvases].map((canvas) => {
     const small = Object.assign(document.createElement('canvas'), { width: SIZE, height: SIZE });
     const context = small.getContext('2d', { willReadFrequently: true });
     context.drawImage(canvas, 0, 0, SIZE, SIZE);
     return [...context.getImageData(0, 0, SIZE, SIZE).data];
   });
-});
+}, tree);
 
 /** The part of a thumbnail that a shape covers. */
 export const covered = (pixels) =>
@@ -55,11 +55,11 @@ export function difference(a, b) {
   return changes.reduce((sum, change) => sum + change, 0) / Math.max(1, shown);
 }
 
-/** Scrolls to the first view; thumbnails of its canvases once each shows something. */
-export async function openView(page) {
-  await page.locator('.view').first().scrollIntoViewIfNeeded();
+/** Scrolls to the view of a tree; thumbnails of its canvases once each shows something. */
+export async function openView(page, tree = 0) {
+  await page.locator('.view').nth(tree).scrollIntoViewIfNeeded();
   for (let wait = 0; wait < 600; ++wait) {
-    const pictures = await thumbnails(page);
+    const pictures = await thumbnails(page, tree);
     if (pictures.length === 3 && pictures.every((pixels) => covered(pixels) > 0)) return pictures;
     await page.waitForTimeout(100);
   }
@@ -68,15 +68,15 @@ export async function openView(page) {
 
 export { thumbnails as pictures };
 
-/** Widths of what sticks out of the window, but for what scrolls by itself. */
-export const overflow = (page) => page.evaluate(() => {
+/** What sticks out of the window, but for what is hidden and what `scrolls` by itself. */
+export const overflow = (page, scrolls = '.scroll, .chart') => page.evaluate((scrolls) => {
   const width = document.documentElement.clientWidth;
-  const scrolls = (element) => element.closest('.scroll, .chart, .skip, .symbols, caption');
+  const may = (element) => element.closest('.skip, .symbols, caption') || element.closest(scrolls);
   return [...document.querySelectorAll('body *')]
-    .filter((element) => !scrolls(element) && element.getBoundingClientRect().right > width + 1)
+    .filter((element) => !may(element) && element.getBoundingClientRect().right > width + 1)
     .map((element) => `${element.tagName}.${element.className} ends at ` +
       `${element.getBoundingClientRect().right} of ${width}`);
-});
+}, scrolls);
 
 /** Texts whose contrast to the page is below 4.5 to 1. */
 export const faint = (page) => page.evaluate(() => {

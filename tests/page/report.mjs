@@ -12,7 +12,11 @@ if (!existsSync(process.env.CHROMIUM ?? '')) {
 const { covered, difference, faint, launch, open, openView, overflow, pictures } =
   await import('./browser.mjs');
 
+const TREES = ['ash', 'hornbeam_behind_the_garden_wall'];
+const CLAIMS = 11;
 const PHONE = { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true };
+
+const PAPER = { width: 672, height: 986 };  // A4 without the margins, at 96 pixels an inch
 
 let browser;
 before(async () => {
@@ -65,6 +69,15 @@ test('what moves one view moves all, and Reset brings them back', async () => {
   }
   await page.getByRole('button', { name: 'Reset' }).first().click();
   assertNoneChanged(start, await pictures(page));
+  assert.deepEqual(page.faults, []);
+});
+
+test('the shapes of another tree stay', async () => {
+  const page = await open(browser);
+  const start = await openView(page);
+  await openView(page, 1);
+  await page.getByRole('button', { name: 'Zoom in' }).nth(1).click();
+  assertNoneChanged(start, await openView(page));
   assert.deepEqual(page.faults, []);
 });
 
@@ -128,6 +141,30 @@ for (const options of [{}, PHONE]) {
     assert.deepEqual(await overflow(page), []);
     assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth));
   });
+
+  test(`the claims stand for both trees at ${width} pixels`, async () => {
+    const page = await open(browser, options);
+    assert.ok(await page.getByRole('region', { name: 'claims on each tree' }).evaluate(
+      (region) => region.scrollWidth <= region.clientWidth));
+    const marks = page.locator('.claims .mark:visible');
+    assert.equal(await marks.count(), CLAIMS * TREES.length);
+    // A wide table names the trees above their columns, a narrow one beside each mark.
+    const named = await page.locator('.claims thead').isVisible()
+      ? await page.locator('.claims thead a').allTextContents()
+      : await page.locator('.claims tbody tr').first().locator('td[data-label]').evaluateAll(
+        (cells) => cells.map((cell) => getComputedStyle(cell, '::before').content.match(/\w+/)[0]));
+    assert.deepEqual(named, TREES);
+  });
+
+  test(`the contents lead to every tree at ${width} pixels`, async () => {
+    const page = await open(browser, options);
+    for (const name of TREES) {
+      await page.getByRole('navigation').getByRole('link', { name, exact: true }).click();
+      const heading = page.getByRole('heading', { name, exact: true, level: 2 });
+      const { y } = await heading.boundingBox();
+      assert.ok(y >= 0 && y < 200, `${name} is ${y} below the top`);
+    }
+  });
 }
 
 test('texts, tables and pictures stand without scripts', async () => {
@@ -160,13 +197,17 @@ test('without WebGL the still pictures stay, and the page says why', async () =>
   assert.equal(await page.locator('canvas').count(), 0);
 });
 
-test('on paper there are still pictures and no controls', async () => {
-  const page = await open(browser);
+test('on paper there are still pictures and no controls, within the margins', async () => {
+  const page = await open(browser, { viewport: PAPER });
   await openView(page);
   await page.emulateMedia({ media: 'print' });
-  assert.equal(await page.locator('canvas:visible, button:visible').count(), 0);
-  assert.ok(await page.locator('.frame img').first().isVisible());
-  assert.ok((await page.pdf()).length > 10000);
+  assert.equal(await page.locator('canvas:visible, button:visible, nav:visible').count(), 0);
+  const pictures = page.locator('.frame img, .sheet img');
+  assert.ok(await pictures.count() > 3 * TREES.length);
+  for (const picture of await pictures.all()) assert.ok(await picture.isVisible());
+  assert.equal(await page.locator('details[open] .verdicts:visible').count(), TREES.length);
+  assert.equal(await page.locator('details:not([open]):visible').count(), 0);
+  assert.deepEqual(await overflow(page, 'none'), []);
 });
 
 for (const colorScheme of ['light', 'dark']) {

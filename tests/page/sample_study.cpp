@@ -72,7 +72,7 @@ Study sample_study() {
   study.device = "a device";
   study.machine = "a machine";
   study.date = "2026-11-22";
-  study.command = {"leafhull", "study", "a tree.glb", "-o", "it's"};
+  study.command = "leafhull study 'a tree.glb' -o <it>";
   study.seconds = 123;
   return study;
 }
