@@ -143,7 +143,7 @@ void run_study(const Arguments& arguments) {
   Console console(arguments.quiet, arguments.verbose);
   check_arguments(arguments);
   const LeafOptions options = resolve(arguments.options).leaf_options();
-  catch_signals();
+  catch_signals(arguments.quiet ? "" : "leafhull: stopped; a study is written at its end\n");
   const auto began = std::chrono::steady_clock::now();
   std::future<Device> opening = open_device(arguments.device, readings().front().falloff);
   std::vector<LeafSet> trees;

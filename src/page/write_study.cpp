@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 void write_study(const Study& study, const fs::path& folder) {
   const std::vector<TreePlots> plots = draw_plots(study);
   std::error_code error;
-  const bool is_new = fs::create_directory(folder, error);
+  const bool is_new = fs::create_directories(folder, error);
   if (error) throw write_error(folder, error.value());
   try {
     Transaction transaction;

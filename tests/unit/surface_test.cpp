@@ -280,6 +280,33 @@ TEST(Components, AQuadCountsWhole) {
   EXPECT_EQ(polygons.points.size(), 8u);
 }
 
+TEST(Components, WhereAQuadBeginsDoesNotMatter) {
+  // A cube with one corner drawn out, whose quads are not flat, beside a tetrahedron of 4/3.
+  Polygons polygons = tetrahedra({2});
+  for (int i = 0; i < 8; ++i) {
+    polygons.points.push_back({i & 4 ? 2.0f : 0, i & 2 ? 2.0f : 0, i & 1 ? 2.0f : 0});
+  }
+  polygons.points.back() = {3, 3, 3};
+  for (const auto& [a, b, c, d] : {std::array{0u, 1u, 3u, 2u},
+                                   {4u, 6u, 7u, 5u},
+                                   {0u, 4u, 5u, 1u},
+                                   {2u, 3u, 7u, 6u},
+                                   {0u, 2u, 6u, 4u},
+                                   {1u, 5u, 7u, 3u}}) {
+    polygons.faces.push_back({4 + a, 4 + b, 4 + c, 4 + d});
+  }
+  // Folded one way or the other the cube's volume is 10 or 12, their mean 11: 4/3 is 0.1212 of it.
+  for (int turn = 0; turn < 4; ++turn) {
+    Polygons below = polygons, above = polygons;
+    EXPECT_EQ(drop_small_components(below, 0.1205).kept, 2u) << turn;
+    EXPECT_EQ(drop_small_components(above, 0.1220).kept, 1u) << turn;
+    for (std::size_t f = 4; f < polygons.faces.size(); ++f) {
+      auto& face = polygons.faces[f];
+      std::rotate(face.begin(), face.begin() + 1, face.end());
+    }
+  }
+}
+
 TEST(Components, AreFoundAcrossManyTriangles) {
   // A strip whose triangles come in any order, and beside it a thousand small ones.
   constexpr std::uint32_t kLength = 50'000;

@@ -43,13 +43,19 @@ SweepPlan plan(const std::string& thresholds, const std::string& methods) {
 std::map<std::size_t, Json> rows_of(const SweepPlan& plan) {
   std::map<std::size_t, Json> rows;
   for (std::size_t i = 0; i < plan.combinations.size(); ++i) {
-    Report report;
+    SeriesEntry entry;
+    Report& report = entry.report;
     report.options = plan.combinations[i];
     report.threshold = *report.options.threshold;
     report.metrics.dilated_voxels = 100 + i;
     report.metrics.off_site_sampled = 200 + i;
     report.seconds = {{"field", 0.5}, {"total", 0.5}};
-    rows[i] = row_of(i, "pictures/" + picture_name(plan, i), report, i == 1);
+    if (i != 1) {
+      entry.mesh.positions.resize(3);
+    } else {
+      entry.failure = "it needs 7 GiB, and 3 are there. Try \"less\".";
+    }
+    rows[i] = row_of(i, "pictures/" + picture_name(plan, i), entry);
   }
   return rows;
 }
@@ -116,7 +122,7 @@ TEST(SweepPlan, PlotsHaveALineForEachOtherCombination) {
   const ChartLine& first = chart.panels[0].lines.at(0);
   EXPECT_EQ(first.name, "method isotropic");
   EXPECT_EQ(first.x, (std::vector<double>{1, 2, 3}));
-  EXPECT_TRUE(std::isnan(first.y[0])) << "without a surface: a gap";
+  EXPECT_TRUE(std::isnan(first.y[0])) << "not computed: a gap";
   EXPECT_EQ(first.y[2], 100);
   EXPECT_EQ(chart.panels[1].lines.at(1).y, (std::vector<double>{204, 205, 203}));
 }
@@ -171,8 +177,10 @@ TEST(SweepPlan, TheTableBeginsWithWhatIsSwept) {
   EXPECT_NE(table.find("\nisotropic,1,1.0,100,"), std::string::npos);
   EXPECT_NE(table.find("\ncontrolled,2.5,2.5,103,"), std::string::npos);
   EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 5);
+  EXPECT_NE(table.find(",true,\"it needs 7 GiB, and 3 are there. Try \"\"less\"\".\",pictures/"),
+            std::string::npos);
   const std::string first = table.substr(0, table.find('\n'));
-  EXPECT_NE(first.find(",seconds_field,seconds_total,empty,picture"), std::string::npos);
+  EXPECT_NE(first.find(",seconds_field,seconds_total,empty,failure,picture"), std::string::npos);
 }
 
 }  // namespace
