@@ -73,9 +73,11 @@ int first_falloff(const SweepPlan& plan) { return plan.combinations.front().fall
 
 void say_summary(Console& console, const SweepSummary& summary, const Arguments& arguments,
                  double elapsed) {
-  std::string text = "leafhull: " + count(summary.combinations) + " combinations";
+  std::string text = "leafhull: " + count(summary.combinations) +
+                     (summary.combinations == 1 ? " combination" : " combinations");
   if (summary.resumed > 0) text += ", " + count(summary.resumed) + " of them from before";
   if (summary.empty > 0) text += ", " + count(summary.empty) + " without a surface";
+  if (summary.failed > 0) text += ", " + count(summary.failed) + " that failed (see sweep.csv)";
   console.say(text + " in " + seconds(elapsed) + ": " + arguments.folder.string());
   for (const StageTime& time : summary.seconds) {
     std::string stage = time.stage;

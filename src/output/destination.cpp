@@ -57,7 +57,7 @@ void check_output_folder(const fs::path& name) {
   if (error) throw write_error(name, error.value());
   if (!fs::is_directory(existing)) {
     throw Error(ErrorCode::output,
-                "cannot write into " + name.string() + ": " + existing.string() + " is no folder",
+                "cannot write into " + name.string() + ": " + existing.string() + " is a file",
                 "Name a folder.");
   }
   if (!may_access(existing, W_OK | X_OK)) {

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "sweep/plan.h"
+#include "sweep/tables.h"
 
 namespace leafhull {
 namespace {
@@ -116,7 +117,7 @@ ChartPanel panel(const SweepPlan& plan, const std::map<std::size_t, Json>& rows,
     if (!is_drawn(values, drawn)) continue;
     ChartLine& line = line_named(panel.lines, line_name(plan, axis, combination));
     line.x.push_back(number(values[axis]));
-    line.y.push_back(row["failure"].is_null() ? row["metrics"][metric].get<double>() : NAN);
+    line.y.push_back(failure_of(row).empty() ? row["metrics"][metric].get<double>() : NAN);
   }
   for (ChartLine& line : panel.lines) sort_by_x(line);
   return panel;

@@ -2,7 +2,6 @@
 // A sweep: the folder, what is done of it, and the rest.
 #include "leafhull/sweep.h"
 
-
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
@@ -130,14 +129,17 @@ Json header_of(const Json& identity, const Files& files, const SweepPlan& plan) 
   return header;
 }
 
-/// The combinations that are still to do: not in the journal, or without their pictures.
+/// The combinations that are still to do: not in the journal, failed, or without their pictures.
 std::vector<std::size_t> remaining(const Files& files, const SweepPlan& plan,
                                    const Journal& journal) {
+  const auto is_done = [&](std::size_t i) {
+    const auto row = journal.rows().find(i);
+    return row != journal.rows().end() && failure_of(row->second).empty() &&
+           is_picture(files.pictures() / picture_name(plan, i));
+  };
   std::vector<std::size_t> todo;
   for (std::size_t i = 0; i < plan.combinations.size(); ++i) {
-    if (!journal.rows().contains(i) || !is_picture(files.pictures() / picture_name(plan, i))) {
-      todo.push_back(i);
-    }
+    if (!is_done(i)) todo.push_back(i);
   }
   return todo;
 }
@@ -222,7 +224,9 @@ void write_sheets(const Files& files, const SweepPlan& plan, const Journal& jour
     std::vector<LabelledPicture> pictures;
     for (std::size_t i = sheet.begin; i < sheet.end; ++i) {
       std::vector<std::string> lines = labels(plan, i);
-      if (journal.rows().at(i)["empty"].get<bool>()) lines.emplace_back("no surface");
+      const Json& row = journal.rows().at(i);
+      if (row["empty"].get<bool>())
+        lines.emplace_back(failure_of(row).empty() ? "no surface" : "failed");
       pictures.push_back({read_picture(files.pictures() / picture_name(plan, i)), lines});
     }
     std::string title = sheet_title(plan, tree);
@@ -259,9 +263,9 @@ SweepSummary run_sweep(const LeafSet& leaves, const SweepPlan& plan, Device& dev
   }
   summary.seconds = extract_remaining(leaves, plan, device, files, journal, progress);
   for (const auto& [combination, row] : journal.rows()) {
-    const bool failed = !row["failure"].is_null();
-    summary.empty += row["empty"].get<bool>() && !failed;
-    if (failed && summary.failed++ == 0) summary.warnings.push_back(row["failure"]);
+    const std::string failure = failure_of(row);
+    summary.empty += row["empty"].get<bool>() && failure.empty();
+    if (!failure.empty() && summary.failed++ == 0) summary.warnings.push_back(failure);
   }
 
   if (progress) progress("write", summary.combinations, summary.combinations);

@@ -77,7 +77,8 @@ std::vector<Column> columns(const SweepPlan& plan, const std::map<std::size_t, J
     columns.push_back(column_of("seconds_" + key, "seconds", key));
   }
   for (const char* key : {"empty", "failure", "picture"}) {
-    columns.push_back({key, [key](std::size_t, const Json& row) { return row[key]; }});
+    columns.push_back(
+        {key, [key](std::size_t, const Json& row) { return row.value(key, Json()); }});
   }
   return columns;
 }
@@ -101,6 +102,11 @@ Json row_of(std::size_t combination, const std::string& picture, const SeriesEnt
     }
   }
   return row;
+}
+
+std::string failure_of(const Json& row) {
+  const auto failure = row.find("failure");
+  return failure != row.end() && failure->is_string() ? failure->get<std::string>() : "";
 }
 
 std::string csv(const SweepPlan& plan, const std::map<std::size_t, Json>& rows) {

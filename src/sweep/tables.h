@@ -16,6 +16,9 @@ using Json = nlohmann::ordered_json;
 /// report; null where it could not be computed, which `failure` says why.
 Json row_of(std::size_t combination, const std::string& picture, const SeriesEntry& entry);
 
+/// Why a row's combination could not be computed; empty where it was.
+std::string failure_of(const Json& row);
+
 /// sweep.csv: a line per combination, the swept options first.
 std::string csv(const SweepPlan& plan, const std::map<std::size_t, Json>& rows);
 

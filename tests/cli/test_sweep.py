@@ -115,6 +115,20 @@ class Results(SweepTest):
         self.assertEqual((float(none["T"]), none["components"]), (1e6, "0"))
         self.assertEqual(none["off_site_exact"], none["leaf_vertices"])
 
+    def test_a_combination_that_does_not_fit_is_a_row(self):
+        result = self.run_sweep("--threshold", "1", "--resolution", "16,900000,20")
+        self.assertIn("1 that failed", result.stderr)
+        some, none, other = self.table()
+        self.assertIn("GiB", none["failure"])
+        self.assertEqual((none["T"], none["dilated_voxels"]), ("", ""))
+        self.assertEqual((some["failure"], other["failure"]), ("", ""))
+        again = self.run_sweep("--threshold", "1", "--resolution", "16,900000,20")
+        self.assertIn("2 of 3 done", again.stderr)
+
+    def test_a_range_of_one_value(self):
+        self.run_sweep("--threshold", "2:2:1", *COARSE)
+        self.assertEqual([row["threshold"] for row in self.table()], ["2"])
+
     def test_quiet_and_verbose(self):
         self.assertEqual(self.run_sweep("--threshold", "1,2", "-q", *COARSE).stderr, "")
         again = self.run_sweep("--threshold", "1,2", "-v", *COARSE)
@@ -197,6 +211,16 @@ class Resuming(SweepTest):
         self.assertIn("1 of 2 done", self.run_sweep(*flags).stderr)
         self.assertEqual(picture.read_bytes(), before)
 
+    def test_a_damaged_picture_is_drawn_again(self):
+        flags = ("--threshold", "1,2", *COARSE)
+        self.run_sweep(*flags)
+        picture = next((self.sweep / "pictures").iterdir())
+        whole = picture.read_bytes()
+        for damaged in (b"", b"x", whole[: len(whole) // 2]):
+            picture.write_bytes(damaged)
+            self.assertIn("1 of 2 done", self.run_sweep(*flags).stderr)
+            self.assertEqual(picture.read_bytes(), whole)
+
     def test_a_row_that_cannot_be_written_keeps_the_others(self):
         flags = ("--threshold", "1,2,3", *COARSE)
         self.run_sweep(*flags)
@@ -243,6 +267,14 @@ class Resuming(SweepTest):
         self.assertEqual(len([n for n in names if n.startswith("pictures/")]), 3)
         self.assertEqual([row["threshold"] for row in self.table()], ["1", "3"])
 
+    def test_restart_with_what_cannot_be_keeps_the_old_sweep(self):
+        self.run_sweep("--threshold", "1,2", *COARSE)
+        before = self.files()
+        flags = ("--radius-max", "1,1e9", "--restart", *COARSE)
+        result = self.run_command("sweep", self.tree, *flags, "-o", self.sweep)
+        self.assertEqual(result.returncode, 2, result.stderr)
+        self.assertEqual(self.files(), before)
+
     def test_files_of_others_are_left_alone(self):
         self.sweep.mkdir()
         (self.sweep / "notes.txt").write_text("mine")
@@ -272,8 +304,11 @@ class Refusals(SweepTest):
         self.fail_with(code, words, "sweep", self.tree, *flags, "-o", self.sweep)
 
     def test_nothing_is_swept(self):
-        for flags in ((), ("--threshold", "2"), ("--threshold", "2:2:1")):
+        for flags in ((), ("--threshold", "2")):
             self.refuse(["--threshold 1.5:2.5:0.25 -o"], *flags)
+
+    def test_a_number_that_is_none_says_so(self):
+        self.refuse(["--threshold nan", "finite"], "--threshold", "nan")
 
     def test_no_folder(self):
         self.fail_with(2, ["no folder", "-o out"], "sweep", self.tree, "--threshold", "1,2")
