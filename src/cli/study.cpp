@@ -123,7 +123,7 @@ std::string_view in_words(Outcome outcome) {
 
 /// The verdicts under the project's own reading, and under how many a claim holds.
 void print_verdicts(const TreeStudy& tree) {
-  std::vector<std::vector<std::string>> rows = {{"claim", "verdict", "readings"}};
+  std::vector<std::vector<std::string>> rows = {{"claim", "own reading", "holds in"}};
   const std::vector<ReadingStudy>& readings = tree.readings;
   for (std::size_t i = 0; i < readings.front().verdicts.size(); ++i) {
     const Verdict& verdict = readings.front().verdicts[i];

@@ -10,9 +10,10 @@ namespace leafhull {
 
 /// Which bricks to evaluate.
 struct BandOptions {
-  std::vector<double> thresholds;  ///< each T, ascending; none: every brick that a support reaches
-  int falloff = 2;                 ///< k
-  int margin = 1;                  ///< voxels by which a block is grown before it is decided
+  /// Each T, ascending; none: every brick that a support reaches.
+  std::vector<double> thresholds = {};
+  int falloff = 2;  ///< k
+  int margin = 1;   ///< voxels by which a block is grown before it is decided
 };
 
 /// Called with bricks to evaluate, in ascending order of their root blocks, and with the share of

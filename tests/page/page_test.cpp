@@ -119,13 +119,14 @@ TEST(Page, IsTheSameForTheSameStudy) {
 
 TEST(Page, DoesWithoutPicturesAndMeshes) {
   Study study = sample_study();
+  study.trees.resize(1);
   TreeStudy& tree = study.trees.front();
   tree.methods.clear();
   tree.figure12.clear();
   tree.figure14.clear();
   tree.meshes = {};
   tree.bounds = {};
-  const std::string page = page_of({.trees = {tree}});
+  const std::string page = page_of(study);
   EXPECT_FALSE(holds(page, "image/jpeg"));
   EXPECT_FALSE(holds(text_of(page), "These are still pictures"));
   EXPECT_PRED_FORMAT2(IsSubstring, "birch 4,000 no surface 3,000", text_of(page));

@@ -25,7 +25,11 @@ LeafSet leaf() {
   return leaves;
 }
 
-const DeviceInfo kDevice{.name = "abacus", .platform = "wood", .variant = "vector"};
+const DeviceInfo kDevice = [] {
+  DeviceInfo device;
+  device.name = "abacus", device.platform = "wood", device.variant = "vector";
+  return device;
+}();
 
 /// Thresholds by methods; what is extracted is the threshold alone.
 SweepPlan plan(const std::string& thresholds, const std::string& methods) {
