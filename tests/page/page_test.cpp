@@ -73,9 +73,11 @@ TEST(Page, ShowsTheTablesBesideThePapers) {
 TEST(Page, TellsEveryOutcomeInWords) {
   const std::string text = text_of(page_of(sample_study()));
   EXPECT_PRED_FORMAT2(IsSubstring,
-                      "1 L&amp;D swells more than CTRLED. holds in 2 of 2 holds in 2 of 2", text);
-  EXPECT_PRED_FORMAT2(IsSubstring, "2 Raising Rmax swells. does not hold in 1 of 2", text);
-  EXPECT_PRED_FORMAT2(IsSubstring, "3 Control takes time. cannot be told in 0 of 2", text);
+                      "1 L&amp;D swells more than CTRLED. holds holds in 2 of 2 readings", text);
+  EXPECT_PRED_FORMAT2(IsSubstring, "2 Raising Rmax swells. does not hold holds in 1 of 2 readings",
+                      text);
+  EXPECT_PRED_FORMAT2(IsSubstring, "3 Control takes time. cannot be told holds in 0 of 2 readings",
+                      text);
   EXPECT_PRED_FORMAT2(
       IsSubstring, "k = 2, standard deviation, exact density (leafhull’s own) 1 of 3 hold", text);
   EXPECT_PRED_FORMAT2(IsSubstring, "k = 1, variance, grid density 2 of 3 hold", text);
