@@ -260,12 +260,13 @@ TEST(Components, SmallOnesAreDroppedByVolume) {
   EXPECT_TRUE(closed(triangulate(polygons)));
 }
 
-TEST(Components, AQuadCountsWhole) {
-  // A cube of volume 8 beside a tetrahedron of 4/3, 0.167 of it; of half the cube it would be 0.33.
+/// A tetrahedron of volume 4/3 and a cube of 8, its last corner at `corner`.
+Polygons tetrahedron_and_cube(Vec3f corner) {
   Polygons polygons = tetrahedra({2});
   for (int i = 0; i < 8; ++i) {
     polygons.points.push_back({i & 4 ? 2.0f : 0, i & 2 ? 2.0f : 0, i & 1 ? 2.0f : 0});
   }
+  polygons.points.back() = corner;
   for (const auto& [a, b, c, d] : {std::array{0u, 1u, 3u, 2u},
                                    {4u, 6u, 7u, 5u},
                                    {0u, 4u, 5u, 1u},
@@ -274,6 +275,12 @@ TEST(Components, AQuadCountsWhole) {
                                    {1u, 5u, 7u, 3u}}) {
     polygons.faces.push_back({4 + a, 4 + b, 4 + c, 4 + d});
   }
+  return polygons;
+}
+
+TEST(Components, AQuadCountsWhole) {
+  // The tetrahedron is 0.167 of the cube; of half the cube it would be 0.33.
+  Polygons polygons = tetrahedron_and_cube({2, 2, 2});
   Polygons same = polygons;
   EXPECT_EQ(drop_small_components(same, 0.16).kept, 2u);
   EXPECT_EQ(drop_small_components(polygons, 0.17).kept, 1u);
@@ -281,20 +288,8 @@ TEST(Components, AQuadCountsWhole) {
 }
 
 TEST(Components, WhereAQuadBeginsDoesNotMatter) {
-  // A cube with one corner drawn out, whose quads are not flat, beside a tetrahedron of 4/3.
-  Polygons polygons = tetrahedra({2});
-  for (int i = 0; i < 8; ++i) {
-    polygons.points.push_back({i & 4 ? 2.0f : 0, i & 2 ? 2.0f : 0, i & 1 ? 2.0f : 0});
-  }
-  polygons.points.back() = {3, 3, 3};
-  for (const auto& [a, b, c, d] : {std::array{0u, 1u, 3u, 2u},
-                                   {4u, 6u, 7u, 5u},
-                                   {0u, 4u, 5u, 1u},
-                                   {2u, 3u, 7u, 6u},
-                                   {0u, 2u, 6u, 4u},
-                                   {1u, 5u, 7u, 3u}}) {
-    polygons.faces.push_back({4 + a, 4 + b, 4 + c, 4 + d});
-  }
+  // With one corner drawn out three of the cube's quads are not flat.
+  Polygons polygons = tetrahedron_and_cube({3, 3, 3});
   // Folded one way or the other the cube's volume is 10 or 12, their mean 11: 4/3 is 0.1212 of it.
   for (int turn = 0; turn < 4; ++turn) {
     Polygons below = polygons, above = polygons;
