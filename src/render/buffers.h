@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "leafhull/vec.h"
+
+namespace leafhull::render {
+
+/// What a pixel shows.
+enum class Object : std::uint8_t { paper, foliage, wood };
+
+/// What every pixel of a picture sees, rows from the top, width * height values each. Lengths are
+/// the scene's, which is about 1 large; directions are along the model's axes.
+struct Buffers {
+  int width = 0, height = 0;
+  std::vector<Object> object;        ///< nearest at the pixel's centre
+  std::vector<float> foliage, wood;  ///< how much of the pixel each covers, 0..1
+  std::vector<float> depth;          ///< along the camera's axis; infinite on paper
+  std::vector<Vec3f> normal;         ///< unit, on the eye's side; zero on paper
+  std::vector<Vec3f> position;       ///< in the scene
+  std::vector<Vec3f> color;          ///< of the surface, linear
+  std::vector<float> key;            ///< of the key light what arrives, 0 in shadow to 1
+  std::vector<float> open;  ///< of the sky what arrives, 0..1: ambient occlusion is 1 - open
+  Vec3f to_light;           ///< unit, towards the key light
+  Vec3f to_eye;             ///< unit, against the camera's axis
+
+  std::size_t size() const { return object.size(); }
+  void resize(int new_width, int new_height);
+};
+
+}  // namespace leafhull::render

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <span>
+
+#include "leafhull/vec.h"
+#include "render/buffers.h"
+
+namespace leafhull::render {
+
+/// In the scene.
+struct Ray {
+  Vec3f origin, direction;  ///< direction: unit
+};
+
+/// The nearest surface along a ray.
+struct Spot {
+  float distance = HUGE_VALF;  ///< infinite where there is none
+  Object object = Object::paper;
+  Vec3f position;     ///< where to shade; rays to light start here
+  Vec3f normal;       ///< unit, smooth, on the ray's side
+  Vec3f face_normal;  ///< unit, of the surface itself; rays below it are hidden
+  Vec3f color;        ///< linear
+  bool hit() const { return object != Object::paper; }
+};
+
+/// Surfaces that rays are cast against, many rays at a time. Rays that follow each other should be
+/// neighbours. A result depends on its ray alone.
+class Target {
+ public:
+  Target() = default;
+  Target(const Target&) = delete;
+  Target& operator=(const Target&) = delete;
+  virtual ~Target() = default;
+
+  /// The nearest surface along each ray.
+  virtual void closest(std::span<const Ray> rays, std::span<Spot> spots) const = 0;
+  /// 1 where anything lies within `reach` along a ray, else 0.
+  virtual void occluded(std::span<const Ray> rays, float reach,
+                        std::span<std::uint8_t> answers) const = 0;
+};
+
+/// How open the places around surfaces are.
+class Surroundings {
+ public:
+  Surroundings() = default;
+  Surroundings(const Surroundings&) = delete;
+  Surroundings& operator=(const Surroundings&) = delete;
+  virtual ~Surroundings() = default;
+
+  /// What arrives of the sky's light at each spot, 0..1, or a sample of it: neighbours are shared.
+  /// `turns` from 0 to kTurns - 1 say which sample; spots without a surface may be passed over.
+  virtual void openness(std::span<const Spot> spots, std::span<const std::uint8_t> turns,
+                        std::span<float> open) const = 0;
+  static constexpr int kTurns = 16;
+};
+
+}  // namespace leafhull::render
