@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "leafhull/device.h"
+#include "leafhull/leaves.h"
+#include "leafhull/options.h"
+#include "leafhull/picture.h"
+#include "leafhull/shape.h"
+#include "leafhull/tree.h"
+
+namespace leafhull {
+
+namespace render {
+struct Buffers;
+}
+namespace watercolour {
+struct Style;
+}
+
+enum class Look { phong, watercolour, normals, depth };
+enum class Surfacing { direct, mesh };  ///< rays through the density itself, or a mesh of it
+enum class Viewpoint { front, three_quarter, top };
+
+std::span<const std::string_view> names(Look);
+std::span<const std::string_view> names(Surfacing);
+std::span<const std::string_view> names(Viewpoint);
+
+/// A camera, model units.
+struct View {
+  Vec3d eye, target;
+  Vec3d up{0, 1, 0};
+  double angle = 25;  ///< of view from the picture's bottom to its top, degrees, [0.1, 170]
+};
+
+/// Reads a camera: a .json object with `eye`, `target` and perhaps `up` and `angle`, as in View, or
+/// the first perspective camera in the scene of a .glb or .gltf.
+/// @throws Error input: the file, the key in it and what is wrong.
+View read_view(const std::filesystem::path& file);
+
+/// How a watercolour is painted; only leafhull's own painter looks inside.
+using WatercolourStyle = std::shared_ptr<const watercolour::Style>;
+
+/// The styles that leafhull brings, the default first.
+std::span<const std::string_view> watercolour_styles();
+
+/// A style by its name or from a .json file; `detail`, 0..1, in place of its own where given.
+/// @throws Error usage: no such name, or a key of the file that is wrong; input: the file cannot be
+/// read.
+WatercolourStyle read_watercolour_style(const std::string& name_or_file,
+                                        std::optional<double> detail = {});
+
+/// What pictures are taken of, ready to be seen from any side: foliage, and perhaps wood.
+class Subject {
+ public:
+  struct Parts;
+  explicit Subject(std::shared_ptr<const Parts> parts) : parts_(std::move(parts)) {}
+
+  /// What its extraction did, as far as it went; of a tree alone.
+  const Report& report() const;
+  /// The render room's side of it.
+  const Parts& parts() const { return *parts_; }
+
+ private:
+  std::shared_ptr<const Parts> parts_;
+};
+
+/// The abstract shape of a tree's leaves, with all of the tree that is no leaf. `frame` is what
+/// named viewpoints hold: the shape and the wood where it is empty.
+/// @param leaves what find_leaves gives for `tree` and `options`.
+/// @throws Error as extract does.
+Subject tree_subject(std::shared_ptr<const TreeModel> tree, const LeafSet& leaves,
+                     const Options& options, Surfacing surfacing, Device& device,
+                     const Progress& progress = {}, const Frame& frame = {});
+
+/// A shape that was written to a file.
+/// @throws Error input: no extent.
+Subject shape_subject(std::shared_ptr<const TreeModel> shape);
+
+/// Whether a file holds an abstract shape rather than a tree: its meshes are called "abstract
+/// shape" as extract calls them, or nothing in it has a name or a material, as in extract's .obj.
+bool is_shape(const TreeModel& file);
+
+/// A density that was written to a .vdb file. Its grid is called `density`, or is the only one of
+/// floats; T is the grid's `threshold`, which other programs' grids lack.
+/// @throws Error input: no such grid, or nothing in it; usage: no T, or one that the grid was not
+/// sampled for; empty: nothing reaches T.
+Subject field_subject(const std::filesystem::path& file, std::optional<double> threshold,
+                      Surfacing surfacing, Device& device, const Progress& progress = {});
+
+struct PictureOptions {
+  Look look = Look::phong;
+  int width = 1024, height = 1024;  ///< pixels, 1 to kLargestSide each
+  std::variant<Viewpoint, View> camera = Viewpoint::three_quarter;
+  double turn = 0;         ///< of the camera about the subject, in whole turns
+  bool turntable = false;  ///< a named viewpoint holds the subject at every turn
+  WatercolourStyle style;  ///< none: the default one
+};
+
+inline constexpr int kLargestSide = 16384;
+
+/// Looks at what a picture would take, before any work is done. Without a device the host's memory
+/// alone is asked.
+/// @throws Error usage: a side out of range, or more memory than there is: how much is needed and
+/// the largest size that fits.
+void check_picture(const PictureOptions& options, const DeviceInfo* device = nullptr);
+
+struct Rendering {
+  Picture picture;
+  std::shared_ptr<const render::Buffers> buffers;  ///< what encode_exr takes
+  bool blank = false;                              ///< nothing is in view
+  std::vector<StageTime> seconds;                  ///< in order, without a total
+};
+
+/// A picture of the subject: the same bytes for the same subject, options and device.
+/// @throws Error as check_picture does; device.
+Rendering draw(const Subject& subject, const PictureOptions& options, Device& device);
+
+/// The picture and what its pixels see, as an OpenEXR file: R G B, A, Z, N, P, id, key, open,
+/// foliage, wood.
+std::vector<std::uint8_t> encode_exr(const Rendering& rendering);
+
+/// Where the pictures of one run go.
+struct PictureFiles {
+  std::vector<std::filesystem::path> files;  ///< .png and .exr; of a turntable .mp4 and .webp, too
+  int frames = 0;                            ///< of a turntable; 0: one picture
+};
+
+/// Looks at the names before any work is done.
+/// @throws Error usage: no name, an extension that is unknown or that stands for a film of one
+/// picture, one file twice, or the input itself; output: a folder that does not exist or cannot be
+/// written to, or a film without ffmpeg.
+void check_pictures(const PictureFiles& files, const std::filesystem::path& input);
+
+/// What was written.
+struct PictureSummary {
+  std::vector<std::filesystem::path> files;  ///< of frames the first
+  std::size_t blank = 0;                     ///< pictures with nothing in view
+  std::vector<StageTime> seconds;            ///< in order, the total last
+  std::vector<std::string> warnings;
+};
+
+/// Draws and writes, one file after the other, each whole or not at all. The frames of a turntable
+/// are numbered, picture-0001.png; beside them comes picture.mp4 where ffmpeg is on the PATH.
+/// @param progress `done` is the share of the frames.
+/// @throws Error as draw does; output: which file and why.
+PictureSummary write_pictures(const Subject& subject, const PictureOptions& options,
+                              const PictureFiles& files, Device& device,
+                              const Progress& progress = {});
+
+/// The plate of the paper's Figure 17: thin, fat and the previous method, in Phong shading and in
+/// watercolour. Of `options` what the rows do not set counts; `look` and `turn` do not.
+/// @throws Error as extract and draw do.
+Picture figure17(std::shared_ptr<const TreeModel> tree, const LeafSet& leaves,
+                 const Options& options, Surfacing surfacing, const PictureOptions& picture,
+                 Device& device, const Progress& progress = {});
+
+}  // namespace leafhull
