@@ -20,11 +20,16 @@ ROOMS = {
     "output": (("density", "surface"), ("tinygltf", "openvdb", "json")),
     "pipeline": (("density", "device", "surface"), ("tbb",)),
     "text": ((), ()),
+    "process": ((), ()),
     "render": (("text",), ("embree", "stb", "tbb")),
-    "chart": (("text",), ()),
+    "chart": (("process", "text"), ()),
     "sweep": (("chart", "output"), ("json",)),
     "study": ((), ()),
     "page": (("chart", "output", "study", "text"), ("json", "meshoptimizer", "mustache")),
+    "picture": (
+        ("density", "device", "output", "pipeline", "process", "render", "surface", "watercolour"),
+        ("json",),
+    ),
     "cli": ((), ("cli11", "json")),
     "bench": (
         ("density", "device", "pipeline", "surface"),

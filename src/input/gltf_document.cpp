@@ -32,11 +32,12 @@ constexpr std::array kWholeNumbers = {
     "componentType", "count",      "index",      "indices",    "mesh",       "material",
     "mode",          "sampler",    "scene",      "skin",       "source",     "texCoord"};
 
-constexpr std::array kLists = {"accessors", "bufferViews", "buffers",  "images", "materials",
-                               "meshes",    "nodes",       "samplers", "scenes", "textures"};
+constexpr std::array kLists = {"accessors", "bufferViews", "buffers", "cameras",
+                               "images",    "materials",   "meshes",  "nodes",
+                               "samplers",  "scenes",      "textures"};
 
 // Members that tinygltf would read, at a cost or at a risk, for nothing.
-constexpr std::array kUnreadMembers = {"animations", "cameras", "extensions", "extras", "skins"};
+constexpr std::array kUnreadMembers = {"animations", "extensions", "extras", "skins"};
 
 bool is_read_extension(std::string_view name) {
   return std::ranges::find(kReadExtensions, name) != kReadExtensions.end();

@@ -104,9 +104,20 @@ void list_images(tinygltf::Model& model, const json& images) {
   }
 }
 
+// A camera is asked for by few: whoever does checks it.
+void list_cameras(GltfFile& file, const json& cameras) {
+  const json::json_pointer type("/type"), angle("/perspective/yfov");
+  for (const json& entry : cameras) {
+    GltfCamera& camera = file.cameras.emplace_back();
+    if (entry.contains(type) && entry[type].is_string()) camera.type = entry[type];
+    if (entry.contains(angle) && entry[angle].is_number()) camera.angle = entry[angle];
+  }
+}
+
 // tinygltf would load every buffer and image, refuse the fallback buffers of compressed files and
 // read images beyond the end of their buffer: it gets the rest.
 void parse_model(GltfFile& file, json document) {
+  document.erase("cameras");
   document.erase("buffers");
   document.erase("images");
   const std::string text = document.dump();
@@ -127,6 +138,7 @@ GltfFile open_gltf(ByteSpan bytes, const std::string& name,
   file.name = name;
   file.folder = folder;
   if (document.contains("buffers")) load_buffers(file, document["buffers"], chunks.binary);
+  if (document.contains("cameras")) list_cameras(file, document["cameras"]);
   const json images = document.contains("images") ? std::move(document["images"]) : json::array();
   parse_model(file, std::move(document));
   list_images(file.model, images);

@@ -15,12 +15,19 @@
 
 namespace leafhull {
 
+/// A camera of the document. A perspective one has an angle of view, bottom to top, in radians.
+struct GltfCamera {
+  std::string type;
+  double angle = 0;
+};
+
 /// An opened glTF file: its document as tinygltf's types, and its bytes. The document is well typed
 /// and its whole numbers fit an int; where they point to is checked by those who follow them.
 struct GltfFile {
   std::string name;                             ///< as messages call it
   std::optional<std::filesystem::path> folder;  ///< of external files; empty: none are read
   tinygltf::Model model;                        ///< its buffers and images hold no data
+  std::vector<GltfCamera> cameras;
   std::vector<ByteSpan> buffers;     ///< as many as the document has; empty for a meshopt fallback
   std::vector<Bytes> owned_buffers;  ///< what `buffers` refers to outside the file itself
   std::map<int, Bytes> decompressed_views;  ///< of EXT_meshopt_compression, as they are asked for

@@ -117,20 +117,19 @@ std::vector<int> root_nodes(const GltfFile& file) {
   return roots;
 }
 
-}  // namespace
-
-std::vector<PlacedMesh> place_meshes(GltfFile& file) {
-  struct Visit {
+/// Every node of the scene in depth-first order: visit(node, place, to_world).
+template <class Visit>
+void walk(const GltfFile& file, Visit&& visit) {
+  struct Stop {
     int node;
     Transform parent;
   };
-  std::vector<Visit> stack;
+  std::vector<Stop> stack;
   const auto push = [&](const std::vector<int>& nodes, const Transform& parent) {
     for (std::size_t i = nodes.size(); i-- > 0;) stack.push_back({nodes[i], parent});
   };
   push(root_nodes(file), kIdentity);
 
-  std::vector<PlacedMesh> placements;
   std::vector<bool> visited(file.model.nodes.size(), false);
   while (!stack.empty()) {
     const auto [index, parent] = stack.back();
@@ -146,7 +145,16 @@ std::vector<PlacedMesh> place_meshes(GltfFile& file) {
     const Transform to_world = parent * local_transform(node);
     if (!is_finite(to_world)) file.fail(place, "has a transform that is not finite");
     push(node.children, to_world);
-    if (node.mesh < 0) continue;
+    visit(node, place, to_world);
+  }
+}
+
+}  // namespace
+
+std::vector<PlacedMesh> place_meshes(GltfFile& file) {
+  std::vector<PlacedMesh> placements;
+  walk(file, [&](const tinygltf::Node& node, const std::string& place, const Transform& to_world) {
+    if (node.mesh < 0) return;
     if (!is_index(node.mesh, file.model.meshes.size())) {
       file.fail(place, "there is no " + place_of("meshes", node.mesh));
     }
@@ -158,7 +166,19 @@ std::vector<PlacedMesh> place_meshes(GltfFile& file) {
     } else {
       placements.push_back({node.mesh, node.name, to_world});
     }
-  }
+  });
+  return placements;
+}
+
+std::vector<PlacedCamera> place_cameras(const GltfFile& file) {
+  std::vector<PlacedCamera> placements;
+  walk(file, [&](const tinygltf::Node& node, const std::string& place, const Transform& to_world) {
+    if (node.camera < 0) return;
+    if (!is_index(node.camera, file.cameras.size())) {
+      file.fail(place, "there is no " + place_of("cameras", node.camera));
+    }
+    placements.push_back({node.camera, place, to_world});
+  });
   return placements;
 }
 

@@ -36,10 +36,16 @@ void sync_folder(const fs::path& folder) {
 void Transaction::write(const fs::path& name, const std::function<void(std::ostream&)>& writer) {
   const fs::path destination = resolve_destination(name);
   TemporaryFile file(destination);
-  file.copy_permissions(destination);
+  file.copy_permissions(destination);  // before there is anything to be seen
   FileStream stream(file.descriptor(), name);
   writer(stream);
   stream.flush();
+  add(name, std::move(file));
+}
+
+void Transaction::add(const fs::path& name, TemporaryFile file) {
+  const fs::path destination = resolve_destination(name);
+  file.copy_permissions(destination);
   file.finish(name);
   entries_.push_back({destination, std::move(file)});
 }

@@ -19,6 +19,11 @@ class Transaction {
   /// @throws Error output, and whatever `writer` throws.
   void write(const std::filesystem::path& name, const std::function<void(std::ostream&)>& writer);
 
+  /// Takes a file that another program has filled, and that was made beside what will become
+  /// `name`.
+  /// @throws Error output.
+  void add(const std::filesystem::path& name, TemporaryFile file);
+
   /// Puts every file in place. Should one fail, those before it are put back, except where the
   /// file system cannot exchange two names.
   /// @throws Error output.

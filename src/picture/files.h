@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "leafhull/render.h"
+
+namespace leafhull {
+
+/// The names of one run's pictures by what is written to them.
+struct FilePlan {
+  std::vector<std::filesystem::path> png, exr;  ///< of a turntable without numbers
+  std::vector<std::filesystem::path> films;
+  bool film_was_asked_for = false;  ///< else it comes with the frames
+  bool film_is_missing = false;     ///< it would come with them, but there is no ffmpeg
+};
+
+/// @throws Error usage, as check_pictures.
+FilePlan plan_files(const PictureFiles& files);
+
+/// The name of frame `number`, from 1: picture-0001.png for picture.png.
+std::filesystem::path numbered(const std::filesystem::path& file, int number);
+
+}  // namespace leafhull

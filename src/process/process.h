@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <sys/types.h>
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace leafhull {
+
+/// Whether PATH finds a program of that name.
+bool finds_program(const std::string& name);
+
+/// A program that PATH finds, running. It knows the locale of nobody, and is killed with the object
+/// unless it has been waited for.
+class Process {
+ public:
+  /// @param words   the program's name, then its arguments.
+  /// @param streams descriptors that become its standard streams.
+  /// @throws std::system_error where it does not start.
+  Process(std::vector<std::string> words, const std::array<int, 3>& streams);
+  ~Process();
+  Process(const Process&) = delete;
+  Process& operator=(const Process&) = delete;
+
+  /// Until it ends. Whether it says that it did its work.
+  /// @throws std::system_error.
+  bool wait();
+
+ private:
+  pid_t id_ = 0;
+};
+
+/// Text for a message of one line.
+std::string one_line(std::string text);
+
+}  // namespace leafhull

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "density/field.h"
+
+namespace leafhull {
+
+/// A density from a file, on a lattice whose origin is at `origin`, model units.
+struct FieldFile {
+  Field field;
+  Vec3d origin;
+};
+
+/// Reads what density_grid() makes, and grids of densities from elsewhere: `density`, or the only
+/// grid of floats. T is `threshold`, else the grid's own.
+/// @throws Error input: the file, its grid or the grid's transform; usage: no T, or another than
+/// the grid was sampled for; empty: nothing reaches T.
+FieldFile read_field(const std::filesystem::path& file, std::optional<double> threshold);
+
+}  // namespace leafhull
