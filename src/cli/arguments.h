@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -10,6 +11,7 @@
 #include "leafhull/device.h"
 #include "leafhull/options.h"
 #include "leafhull/output.h"
+#include "leafhull/render.h"
 #include "leafhull/sweep.h"
 
 namespace leafhull::cli {
@@ -31,6 +33,15 @@ struct Arguments {
   bool yes = false, restart = false;
 
   std::filesystem::path picture;  ///< suggest
+
+  // render
+  std::string camera = "three-quarter", watercolour_style;
+  PictureOptions drawing;
+  PictureFiles pictures;
+  std::optional<Surfacing> surfacing;
+  std::optional<double> detail;
+  std::optional<bool> is_shape;
+  bool figure17 = false;
 
   // study
   std::vector<std::filesystem::path> trees;

@@ -33,6 +33,7 @@ std::vector<Flag> swept_flags();
 std::vector<Flag> output_flags();
 std::vector<Flag> sweep_flags();
 std::vector<Flag> suggest_flags();
+std::vector<Flag> render_flags();
 std::vector<Flag> device_flags();
 std::vector<Flag> console_flags();
 std::vector<Flag> json_flags();

@@ -126,13 +126,11 @@ std::string command_help(std::span<const Verb> verbs) {
 }
 
 std::string verb_help(const Verb& verb) {
-  std::string page = std::string(verb.about) + "\n\nUsage\n  leafhull " + std::string(verb.name) +
-                     (verb.takes_tree    ? " TREE"
-                      : verb.takes_trees ? " TREE..."
-                                         : "") +
-                     " [options]\n";
-  if (verb.takes_tree || verb.takes_trees)
-    page += "\n" + entry("TREE", "a .glb, .gltf or .obj file");
+  std::string page(verb.about);
+  page.append("\n\nUsage\n  leafhull ").append(verb.name);
+  if (verb.takes_tree || verb.takes_trees) page.append(" ").append(verb.operand);
+  page += " [options]\n";
+  if (verb.takes_tree || verb.takes_trees) page += "\n" + entry(verb.operand, verb.operand_help);
   std::string_view group;
   for (const Flag& flag : verb.flags) {
     if (flag.group != group) page += "\n" + std::string(group = flag.group) + "\n";

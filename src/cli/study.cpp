@@ -190,6 +190,7 @@ Verb study_verb() {
           "  leafhull study birch.glb -o study/\n"
           "  leafhull study birch.glb ash.glb --leaves '*leaf*' -o study/\n",
       .takes_trees = true,
+      .operand = "TREE...",
       .flags = all_of(
           {option_flags("Leaves"), folder_flags(), device_flags(), console_flags(), help_flags()}),
       .run = run_study};

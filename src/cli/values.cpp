@@ -119,6 +119,15 @@ int whole_number(std::string_view flag, const std::string& text, int low, int hi
   return *value;
 }
 
+double real_number(std::string_view flag, const std::string& text, double low, double high) {
+  const double value = real_number(flag, text);
+  if (!(value >= low && value <= high)) {
+    refuse(flag, text, "is out of range",
+           std::string("Give a number from ") + number(low) + " to " + number(high) + ".");
+  }
+  return value;
+}
+
 std::size_t choice(std::string_view flag, std::string_view text,
                    std::span<const std::string_view> valid) {
   const auto found = std::find(valid.begin(), valid.end(), text);

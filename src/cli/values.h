@@ -17,6 +17,9 @@ void set_option(Options& options, const OptionRow& row, const std::string& text)
 /// @throws Error usage: `text` is no whole number from `low` to `high`.
 int whole_number(std::string_view flag, const std::string& text, int low, int high);
 
+/// @throws Error usage: `text` is no number from `low` to `high`.
+double real_number(std::string_view flag, const std::string& text, double low, double high);
+
 /// The index of `text` among `valid`.
 /// @throws Error usage: it is none of them; the nearest is suggested.
 std::size_t choice(std::string_view flag, std::string_view text,

@@ -14,6 +14,7 @@ struct Verb {
   std::string_view name, summary, about, examples;
   bool takes_tree = false;
   bool takes_trees = false;  ///< one or more
+  std::string_view operand = "TREE", operand_help = "a .glb, .gltf or .obj file";
   bool hidden = false;
   std::vector<Flag> flags;
   void (*run)(const Arguments&) = nullptr;
@@ -24,6 +25,7 @@ Verb inspect_verb();
 Verb sweep_verb();
 Verb suggest_verb();
 Verb study_verb();
+Verb render_verb();
 Verb devices_verb();
 Verb help_options_verb();
 

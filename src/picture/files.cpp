@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <map>
-#include <string>
 #include <system_error>
 
 #include "leafhull/error.h"
@@ -16,14 +15,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kDigits = 4;
-
-std::string lower_extension(const fs::path& file) {
-  std::string extension = file.extension().string();
-  for (char& c : extension) {
-    if (c >= 'A' && c <= 'Z') c += 'a' - 'A';
-  }
-  return extension;
-}
 
 void refuse_input(const fs::path& file, const fs::path& destination, const fs::path& input) {
   std::error_code unreadable;
@@ -50,6 +41,14 @@ void add_film(const PictureFiles& files, FilePlan& plan) {
 }
 
 }  // namespace
+
+std::string lower_extension(const fs::path& file) {
+  std::string extension = file.extension().string();
+  for (char& c : extension) {
+    if (c >= 'A' && c <= 'Z') c += 'a' - 'A';
+  }
+  return extension;
+}
 
 fs::path numbered(const fs::path& file, int number) {
   std::string digits = std::to_string(number);

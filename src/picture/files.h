@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "leafhull/render.h"
@@ -15,6 +16,9 @@ struct FilePlan {
   bool film_was_asked_for = false;  ///< else it comes with the frames
   bool film_is_missing = false;     ///< it would come with them, but there is no ffmpeg
 };
+
+/// ".png" of FILE.PNG.
+std::string lower_extension(const std::filesystem::path& file);
 
 /// @throws Error usage, as check_pictures.
 FilePlan plan_files(const PictureFiles& files);

@@ -15,6 +15,7 @@
 #include "output/destination.h"
 #include "output/transaction.h"
 #include "output/write_error.h"
+#include "picture/files.h"
 
 namespace leafhull {
 namespace {
@@ -48,7 +49,7 @@ std::vector<std::string> command(const std::filesystem::path& name, const char* 
                                     std::to_string(frames_per_second),
                                     "-i",
                                     "pipe:0"};
-  const std::vector<std::string>& format = name.extension() == ".webp" ? kWebp : kMp4;
+  const std::vector<std::string>& format = lower_extension(name) == ".webp" ? kWebp : kMp4;
   words.insert(words.end(), format.begin(), format.end());
   // The same frames make the same film.
   for (const char* word : {"-fflags", "+bitexact", "-flags:v", "+bitexact", "-y"}) {

@@ -1,0 +1,282 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "leafhull/render.h"
+
+#include <algorithm>
+#include <cmath>
+#include <future>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "cli/console.h"
+#include "cli/signals.h"
+#include "cli/values.h"
+#include "cli/verb.h"
+#include "leafhull/error.h"
+#include "leafhull/output.h"
+#include "leafhull/tree.h"
+
+namespace leafhull::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string lower_extension(const fs::path& file) {
+  std::string extension = file.extension().string();
+  for (char& c : extension) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c + ('a' - 'A') : c);
+  return extension;
+}
+
+bool is_field(const Arguments& arguments) { return lower_extension(arguments.tree) == ".vdb"; }
+
+/// A viewpoint by its name, else the camera in a file.
+std::variant<Viewpoint, View> camera_of(const std::string& text) {
+  const auto valid = names(Viewpoint{});
+  const auto found = std::find(valid.begin(), valid.end(), text);
+  if (found != valid.end()) return static_cast<Viewpoint>(found - valid.begin());
+  const fs::path file(text);
+  if (file.has_extension() || file.has_parent_path() || fs::exists(file)) return read_view(file);
+  return static_cast<Viewpoint>(choice("--camera", text, valid));  // says what the names are
+}
+
+[[noreturn]] void refuse(const std::string& what, const std::string& remedy) {
+  throw Error(ErrorCode::usage, what, remedy);
+}
+
+void check_figure17(const Arguments& arguments) {
+  const std::vector<fs::path>& files = arguments.pictures.files;
+  if (arguments.pictures.frames > 0) {
+    refuse("--figure17 and --turntable contradict each other", "Give one of the two.");
+  }
+  if (arguments.drawing.look != Look::phong) {
+    refuse("--figure17 has looks of its own, beside --look " +
+               std::string(name(arguments.drawing.look)),
+           "Leave --look out.");
+  }
+  if (files.size() != 1 || lower_extension(files.front()) != ".png") {
+    refuse("--figure17 writes one .png file", "Name one, such as -o figure17.png.");
+  }
+  if (is_field(arguments) || arguments.is_shape.value_or(false)) {
+    refuse("--figure17 needs the tree itself", "Give a TREE.");
+  }
+}
+
+/// Options that were typed but change nothing.
+std::vector<std::string> without_effect(const Arguments& arguments, bool is_tree) {
+  std::vector<std::string> warnings;
+  const auto warn = [&](std::string_view option, const std::string& why) {
+    warnings.push_back("--" + std::string(option) + " has no effect " + why);
+  };
+  const Look look = arguments.drawing.look;
+  if (look != Look::watercolour && !arguments.figure17) {
+    const std::string why = "with --look " + std::string(name(look));
+    if (!arguments.watercolour_style.empty()) warn("watercolour-style", why);
+    if (arguments.detail) warn("detail", why);
+  }
+  for (const std::string_view option : arguments.given) {
+    const bool of_rows = option == "style" || option == "method" || option == "threshold" ||
+                         option == "threshold-percent" || option == "coverage" ||
+                         option == "radius-max" || option == "radius-unit" || option == "flatness";
+    if (arguments.figure17 && of_rows) warn(option, "on --figure17, whose rows set it");
+    if (is_tree) continue;
+    if (!is_field(arguments)) warn(option, "on a shape that is drawn as it is");
+    if (is_field(arguments) && option != "threshold") warn(option, "on a density from a file");
+  }
+  return warnings;
+}
+
+/// What the command line asks for, checked as far as no file need be read but the camera's and the
+/// style's.
+PictureOptions checked(const Arguments& arguments) {
+  (void)resolve(arguments.options);
+  if (arguments.figure17) check_figure17(arguments);
+  check_pictures(arguments.pictures, arguments.tree);
+  PictureOptions drawing = arguments.drawing;
+  drawing.camera = camera_of(arguments.camera);
+  const std::string style = arguments.watercolour_style;
+  drawing.style = read_watercolour_style(
+      style.empty() ? std::string(watercolour_styles().front()) : style, arguments.detail);
+  check_picture(drawing);
+  return drawing;
+}
+
+/// Reads and draws; what is asked of it is checked.
+class Run {
+ public:
+  Run(const Arguments& arguments, const PictureOptions& drawing, Console& console)
+      : arguments_(arguments),
+        drawing_(drawing),
+        console_(console),
+        opening_(open_device(arguments.device, arguments.options.falloff)) {}
+
+  void operator()() {
+    if (is_field(arguments_)) {
+      warn(without_effect(arguments_, false));
+      Device& device = open();
+      const std::optional<double> threshold = arguments_.options.threshold;
+      write(field_subject(arguments_.tree, threshold, surfacing(), device, progress()), device);
+      return;
+    }
+    console_.progress("read", 0);
+    const auto model = std::make_shared<const TreeModel>(read_tree(arguments_.tree));
+    warn(model->warnings);
+    const bool shape = arguments_.is_shape.value_or(arguments_.options.leaves.empty() &&
+                                                    leafhull::is_shape(*model));
+    if (shape) {
+      draw_shape(model);
+    } else {
+      draw_tree(model);
+    }
+  }
+
+ private:
+  Surfacing surfacing() const { return arguments_.surfacing.value_or(Surfacing::direct); }
+
+  Progress progress() {
+    return [this](std::string_view stage, double done) { console_.progress(stage, done); };
+  }
+
+  void warn(const std::vector<std::string>& lines) {
+    for (const std::string& line : lines) console_.warn(line);
+  }
+
+  Device& open() {
+    device_.emplace(opening_.get());
+    check_picture(drawing_, &device_->info());
+    console_.detail("device      " + device_->info().name);
+    return *device_;
+  }
+
+  void draw_shape(const std::shared_ptr<const TreeModel>& model) {
+    const std::string file = arguments_.tree.string();
+    if (arguments_.figure17) {
+      refuse("--figure17 needs a tree, and " + file + " is an abstract shape", "Give a TREE.");
+    }
+    if (arguments_.surfacing == Surfacing::direct) {
+      refuse("--surface direct needs a density, and " + file + " is a shape of polygons",
+             "Give the tree, or a .vdb file from extract --save-field.");
+    }
+    if (!arguments_.is_shape) {
+      console_.say("leafhull: " + file + " is drawn as an abstract shape (--as tree: as a tree)");
+    }
+    warn(without_effect(arguments_, false));
+    write(shape_subject(model), open());
+  }
+
+  void draw_tree(const std::shared_ptr<const TreeModel>& model) {
+    warn(without_effect(arguments_, true));
+    console_.progress("leaves", 0);
+    const LeafSet leaves = find_leaves(*model, arguments_.options.leaf_options());
+    warn(leaves.warnings);
+    Device& device = open();
+    if (arguments_.figure17) {
+      write_figure17(model, leaves, device);
+      return;
+    }
+    const Subject subject =
+        tree_subject(model, leaves, arguments_.options, surfacing(), device, progress());
+    warn(subject.report().warnings);
+    write(subject, device);
+  }
+
+  void write_figure17(const std::shared_ptr<const TreeModel>& model, const LeafSet& leaves,
+                      Device& device) {
+    const fs::path& file = arguments_.pictures.files.front();
+    const Picture plate =
+        figure17(model, leaves, arguments_.options, surfacing(), drawing_, device, progress());
+    const std::vector<std::uint8_t> png = encode_png(plate);
+    write_file(file, {reinterpret_cast<const char*>(png.data()), png.size()});
+    console_.say("leafhull: Figure 17 of " + arguments_.tree.filename().string() + " in " +
+                 seconds(elapsed()) + ": " + file.string());
+  }
+
+  void write(const Subject& subject, Device& device) {
+    const Report& report = subject.report();
+    if (report.threshold > 0) {
+      console_.detail("surface     T = " + number(report.threshold, 4) + ", " +
+                      count(static_cast<std::uint64_t>(report.resolution)) + " voxels of " +
+                      number(report.voxel_size, 4));
+    }
+    const int frames = arguments_.pictures.frames;
+    const PictureSummary summary = write_pictures(
+        subject, drawing_, arguments_.pictures, device, [&](std::string_view stage, double done) {
+          if (frames == 0) {
+            console_.progress(stage, done);
+          } else {
+            console_.progress(stage, static_cast<std::size_t>(std::lround(done * frames)),
+                              static_cast<std::size_t>(frames));
+          }
+        });
+    warn(summary.warnings);
+    say_times(report.seconds);
+    say_times(summary.seconds);
+    say_files(summary);
+  }
+
+  void say_times(const std::vector<StageTime>& times) {
+    for (const StageTime& time : times) {
+      if (time.stage == "total") continue;
+      std::string stage = time.stage;
+      stage.resize(std::max<std::size_t>(stage.size(), 10), ' ');
+      console_.detail(stage + "  " + seconds(time.seconds));
+    }
+  }
+
+  void say_files(const PictureSummary& summary) {
+    const int frames = arguments_.pictures.frames;
+    std::string where;
+    for (const fs::path& file : summary.files) where += (where.empty() ? "" : ", ") + file.string();
+    console_.say("leafhull: " + std::to_string(drawing_.width) + "x" +
+                 std::to_string(drawing_.height) + " pixels" +
+                 (frames > 0 ? ", " + std::to_string(frames) + " frames" : "") + " in " +
+                 seconds(elapsed()) + ": " + where);
+  }
+
+  double elapsed() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+  const Arguments& arguments_;
+  const PictureOptions& drawing_;
+  Console& console_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  std::future<Device> opening_;
+  std::optional<Device> device_;
+};
+
+void run_render(const Arguments& arguments) {
+  Console console(arguments.quiet, arguments.verbose);
+  const PictureOptions drawing = checked(arguments);
+  catch_signals();
+  Run(arguments, drawing, console)();
+}
+
+}  // namespace
+
+Verb render_verb() {
+  return {
+      .name = "render",
+      .summary = "pictures of a tree's abstract shape: shaded, or a watercolour",
+      .about =
+          "Draws the abstract shape of TREE with its trunk and branches, or what extract wrote:\n"
+          "a SHAPE, or the density of a .vdb file. A turntable is a row of numbered frames, and\n"
+          "a film where ffmpeg is installed.\n"
+          "\n"
+          "A camera file is {\"eye\": [x, y, z], \"target\": [x, y, z], \"up\": [0, 1, 0],\n"
+          "\"angle\": 25} in model units and degrees from the picture's bottom to its top, or a\n"
+          ".glb or .gltf file with a perspective camera.",
+      .examples =
+          "  leafhull render birch.glb -o birch.png --look watercolour\n"
+          "  leafhull render birch.glb -o birch.png -o birch.exr --camera front --size 1920x1080\n"
+          "  leafhull render birch.glb -o turn.mp4 --turntable 120 --style fat --preset fine\n"
+          "  leafhull render shape.glb -o shape.png --look normals\n"
+          "  leafhull render birch.glb --figure17 -o figure17.png\n",
+      .takes_tree = true,
+      .operand = "TREE|SHAPE|FIELD",
+      .operand_help = "a .glb, .gltf or .obj file; a density as .vdb",
+      .flags =
+          all_of({render_flags(), option_flags(), device_flags(), console_flags(), help_flags()}),
+      .run = run_render};
+}
+
+}  // namespace leafhull::cli
