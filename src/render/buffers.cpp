@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/buffers.h"
 
-#include <cmath>
-
 namespace leafhull::render {
 
 void Buffers::resize(int new_width, int new_height) {
@@ -13,6 +11,7 @@ void Buffers::resize(int new_width, int new_height) {
   depth.assign(pixels, HUGE_VALF);
   normal.assign(pixels, {}), position.assign(pixels, {}), color.assign(pixels, {});
   key.assign(pixels, 1), open.assign(pixels, 1);
+  edges.clear(), samples.clear();
 }
 
 }  // namespace leafhull::render

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -11,6 +12,14 @@ namespace leafhull::render {
 
 /// What a pixel shows.
 enum class Object : std::uint8_t { paper, foliage, wood };
+
+/// What one of the further rays of a pixel at an edge sees; values as in Buffers.
+struct EdgeSample {
+  Object object = Object::paper;
+  float depth = HUGE_VALF;
+  Vec3f normal, position, color;
+  float key = 1, open = 1;
+};
 
 /// What every pixel of a picture sees, rows from the top, width * height values each. Lengths are
 /// the scene's, which is about 1 large; directions are along the model's axes.
@@ -24,10 +33,14 @@ struct Buffers {
   std::vector<Vec3f> color;          ///< of the surface, linear
   std::vector<float> key;            ///< of the key light what arrives, 0 in shadow to 1
   std::vector<float> open;  ///< of the sky what arrives, 0..1: ambient occlusion is 1 - open
-  Vec3f to_light;           ///< unit, towards the key light
-  Vec3f to_eye;             ///< unit, against the camera's axis
+  static constexpr int kEdgeRays = 8;
+  std::vector<std::uint32_t> edges;  ///< the pixels where surfaces end, each once
+  std::vector<EdgeSample> samples;   ///< kEdgeRays for each edge, in the order of `edges`
+  Vec3f to_light;                    ///< unit, towards the key light
+  Vec3f to_eye;                      ///< unit, against the camera's axis
 
   std::size_t size() const { return object.size(); }
+  /// All of it paper.
   void resize(int new_width, int new_height);
 };
 

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <numbers>
 
@@ -46,6 +47,14 @@ inline Vec2f sobol(std::uint32_t index, std::uint32_t seed) {
   const auto unit = [](std::uint32_t x) { return static_cast<float>(x >> 8) * 0x1p-24f; };
   return {unit(scramble(reverse_bits(index), hash(seed + 1))),
           unit(scramble(second, hash(seed + 2)))};
+}
+
+/// The first points of a sequence.
+template <std::size_t count>
+std::array<Vec2f, count> sobol_points(std::uint32_t seed) {
+  std::array<Vec2f, count> points;
+  for (std::uint32_t i = 0; i < count; ++i) points[i] = sobol(i, seed);
+  return points;
 }
 
 /// Two unit vectors that complete the unit vector `n` to an orthonormal frame.

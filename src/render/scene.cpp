@@ -93,7 +93,7 @@ std::optional<Hit> Scene::closest(Vec3f origin, Vec3f direction) const {
     normal = normal + normals[corner] * weights[corner];
   }
   return Hit{position, normalized(normal), face_normal, surface.uv(hit.primID, {hit.u, hit.v}),
-             &surface};
+             &surface, ray.ray.tfar};
 }
 
 bool Scene::occluded(Vec3f origin, Vec3f direction, float distance) const {

@@ -16,6 +16,7 @@ struct Hit {
   Vec3f face_normal;  ///< of the triangle, unit, on the ray's side
   Vec2f uv;
   const Surface* surface;
+  float distance;  ///< in lengths of the ray's direction
 };
 
 enum class Build { careful, quick };  ///< of the hierarchy: for many rays, for few

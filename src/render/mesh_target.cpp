@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/mesh_target.h"
+
+#include <tbb/parallel_for.h>
+
+#include "render/light.h"
+#include "render/sampling.h"
+
+namespace leafhull::render {
+namespace {
+
+constexpr std::size_t kGrain = 64;  // rays that one thread takes at a time
+
+template <class Function>
+void for_each_ray(std::span<const Ray> rays, Function&& function) {
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, rays.size(), kGrain), [&](const auto& some) {
+    for (std::size_t i = some.begin(); i != some.end(); ++i) function(i);
+  });
+}
+
+Spot spot_of(const Hit& hit) {
+  const Look look = hit.surface->look;
+  return {hit.distance,    look == Look::wood ? Object::wood : Object::foliage,
+          hit.position,    hit.normal,
+          hit.face_normal, look == Look::shape ? kShapeGreen : hit.surface->color(hit.uv)};
+}
+
+}  // namespace
+
+void MeshTarget::closest(std::span<const Ray> rays, std::span<Spot> spots) const {
+  for_each_ray(rays, [&](std::size_t i) {
+    const std::optional<Hit> hit = scene_.closest(rays[i].origin, rays[i].direction);
+    spots[i] = hit ? spot_of(*hit) : Spot{};
+  });
+}
+
+void MeshTarget::occluded(std::span<const Ray> rays, float reach,
+                          std::span<std::uint8_t> answers) const {
+  for_each_ray(rays, [&](std::size_t i) {
+    answers[i] = scene_.occluded(rays[i].origin, rays[i].direction, reach);
+  });
+}
+
+void MeshSurroundings::openness(std::span<const Spot> spots, std::span<const std::uint8_t> turns,
+                                std::span<float> open) const {
+  static const auto kDirections = sobol_points<kTurns>(2);
+  std::vector<Ray> rays;
+  std::vector<std::size_t> asked;
+  for (std::size_t i = 0; i < spots.size(); ++i) {
+    open[i] = 0;
+    if (!spots[i].hit()) continue;
+    const Vec3f direction = cosine_direction(spots[i].normal, kDirections[turns[i]]);
+    if (dot(direction, spots[i].face_normal) <= 0) continue;
+    rays.push_back({spots[i].position, direction});
+    asked.push_back(i);
+  }
+  const std::vector<std::uint8_t> hidden = render::occluded(targets_, rays, kSkyReach);
+  for (std::size_t i = 0; i < asked.size(); ++i) open[asked[i]] = hidden[i] ? 0 : 1;
+}
+
+std::vector<std::uint8_t> occluded(std::span<const Target* const> targets,
+                                   std::span<const Ray> rays, float reach) {
+  std::vector<std::uint8_t> any(rays.size()), answers(rays.size());
+  for (const Target* target : targets) {
+    target->occluded(rays, reach, answers);
+    for (std::size_t i = 0; i < rays.size(); ++i) any[i] |= answers[i];
+  }
+  return any;
+}
+
+}  // namespace leafhull::render
