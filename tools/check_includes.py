@@ -21,6 +21,7 @@ ROOMS = {
     "pipeline": (("density", "device", "surface"), ("tbb",)),
     "text": ((), ()),
     "render": (("text",), ("embree", "stb", "tbb")),
+    "watercolour": (("device", "render"), ("json",)),
     "chart": (("text",), ()),
     "sweep": (("chart", "output"), ("json",)),
     "study": ((), ()),
