@@ -22,6 +22,7 @@ ROOMS = {
     "text": ((), ()),
     "process": ((), ()),
     "render": (("text",), ("embree", "stb", "tbb")),
+    "watercolour": (("device", "render"), ("json",)),
     "chart": (("process", "text"), ()),
     "sweep": (("chart", "output"), ("json",)),
     "study": ((), ()),

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+// The passes of a watercolour over what a picture's pixels see: T. Luft and O. Deussen, "Real-Time
+// Watercolor Illustrations of Plants Using a Blurred Depth Test", NPAR 2006; A. Bousseau et al.,
+// "Interactive Watercolor Rendering with Temporal Coherence and Abstraction", NPAR 2006; S. E.
+// Montesdeoca et al., "Edge- and Substrate-based Effects for Watercolor Stylization", 2017.
+//
+// Pigment is kept as its density d: light goes through twice and a pigment of colour C lets C^d
+// through (Beer and Lambert), so that C' = C^(1 + e) of the papers is d' = d (1 + e), and layers
+// over one another add up -d ln C.
+//
+// Global size: the values of a plane / LANES, but for `see` and `develop`: one work-item a pixel.
+#include "watercolour.clh"
+
+// Planes from what pixels see; sums over a pixel, so zero where it sees nothing. light: 0..1, of
+// which the sky gives a share of `sky`, the key light wrapped around by `wrap`.
+kernel void see(int width, int height, int pitch, global const uchar* object, image normal,
+                image position, image depth, image key, image open, float lx, float ly, float lz,
+                float sky, float wrap, canvas seen, canvas light, canvas far, canvas x, canvas y,
+                canvas z) {
+  const int column = get_global_id(0), row = get_global_id(1);
+  const int to = row * pitch + column;
+  const bool inside = column < width && row < height;
+  const int from = inside ? row * width + column : 0;
+  const bool any = inside && object[from] != 0;
+  const float3 n = vload3(from, normal), p = vload3(from, position);
+  const float facing = fma(n.x, lx, fma(n.y, ly, n.z * lz));
+  const float direct = key[from] * clamp((facing + wrap) / (1.0f + wrap), 0.0f, 1.0f);
+  const float lit = fma(sky, open[from] - direct, direct);
+  seen[to] = any ? 1.0f : 0.0f;
+  light[to] = any ? lit : 0.0f;
+  far[to] = any ? depth[from] : 0.0f;
+  x[to] = any ? p.x : 0.0f;
+  y[to] = any ? p.y : 0.0f;
+  z[to] = any ? p.z : 0.0f;
+}
+
+// A plane of a picture's values; the padding is zero.
+kernel void pad(int width, int height, int pitch, image values, canvas out) {
+  const int column = get_global_id(0), row = get_global_id(1);
+  const bool inside = column < width && row < height;
+  out[row * pitch + column] = inside ? values[row * width + column] : 0.0f;
+}
+
+// 1 - the light, of what is seen.
+kernel void darkness(image light, image seen, canvas out) {
+  STORE(saturate(1.0f - share(LOAD(light), LOAD(seen))), out);
+}
+
+// The blurred depth test: v = 1 - smoothstep(0, d, z - blur(z)). Luft and Deussen 2006.
+kernel void visibility(image seen, image far, image seen_around, image far_around, float reach,
+                       canvas out) {
+  const real part = LOAD(seen);
+  const real behind = share(LOAD(far), part) - share(LOAD(far_around), LOAD(seen_around));
+  STORE(1.0f - part * smooth(REAL(0.0f), REAL(reach), behind), out);
+}
+
+// a, as much as b lets it: a blend of a and a b by `amount`.
+kernel void mask(image a, image b, float amount, canvas out) {
+  STORE(LOAD(a) * fma(REAL(amount), LOAD(b) - 1.0f, REAL(1.0f)), out);
+}
+
+// Where a layer lies: a blurred image pushed through a smoothstep around `level`, narrow for wet on
+// dry, wide for wet on wet (Luft and Deussen 2006), where `within` lets it. The paper moves the
+// boundary by its height and by the sway of its grain (dry brush and wobble), leaves break it.
+// lost: widens the smoothstep where `wetness` is high, so that edges are lost and found.
+kernel void layer(image rho, image within, image height, image sway, image breaking, image wetness,
+                  float level, float softness, float lost, float dryness, float wobble,
+                  float ragged, canvas out) {
+  const real moved =
+      fma(REAL(dryness), LOAD(height) - 0.5f,
+          fma(REAL(wobble), LOAD(sway), fma(REAL(ragged), LOAD(breaking), LOAD(rho))));
+  const real half_width = fma(REAL(lost), saturate(LOAD(wetness)), REAL(softness));
+  STORE(LOAD(within) * smooth(level - half_width, level + half_width, moved), out);
+}
+
+// Pigment carried to the rim while a layer dries: more where the layer is denser than around.
+// After Bousseau et al. 2006, with the difference from a blur for the gradient.
+kernel void darken_edges(image alpha, image around, float amount, canvas density) {
+  const real a = LOAD(alpha);
+  STORE(a * fma(REAL(amount), fmax(a - LOAD(around), REAL(0.0f)), REAL(1.0f)), density);
+}
+
+// Density that varies by the turbulence of the water (Bousseau et al. 2006) and is thinned where
+// the light is brightest.
+kernel void dilute(canvas density, image turbulence, image dark, float turbulent, float dilution) {
+  const real bright = smooth(REAL(0.3f), REAL(0.85f), 1.0f - LOAD(dark));
+  const real stirred = fmax(fma(REAL(turbulent), LOAD(turbulence), REAL(1.0f)), REAL(0.1f));
+  STORE(LOAD(density) * stirred * (1.0f - dilution * bright), density);
+}
+
+// Pigment settles in the valleys of the paper, the more the denser it is (Montesdeoca et al. 2017),
+// and is dispersed in specks (Bousseau et al. 2006).
+kernel void granulate(canvas density, image height, image speckle, float granulation,
+                      float dispersion) {
+  const real d = LOAD(density);
+  const real valley = 1.0f - 2.0f * LOAD(height);
+  const real more = d * fma(REAL(granulation), valley, dispersion * LOAD(speckle));
+  STORE(d * fmax(1.0f + more, REAL(0.1f)), density);
+}
+
+// Lays a layer over the ones before: absorbance += density * (-ln C), C between a cool and a warm
+// pigment. Its strength may vary with `by`.
+kernel void glaze(image density, image warmth, float4 cool, float4 warm, float warm_cool,
+                  canvas red, canvas green, canvas blue) {
+  const real d = LOAD(density);
+  const real t = saturate(fma(REAL(warm_cool), LOAD(warmth), REAL(0.5f)));
+  STORE(fma(d, blend(REAL(cool.x), REAL(warm.x), t), LOAD(red)), red);
+  STORE(fma(d, blend(REAL(cool.y), REAL(warm.y), t), LOAD(green)), green);
+  STORE(fma(d, blend(REAL(cool.z), REAL(warm.z), t), LOAD(blue)), blue);
+}
+
+// How wet the paper is in patches, where there is paint.
+kernel void wet(image wetness, image alpha, float amount, canvas out) {
+  const real patch = smooth(REAL(-0.1f), REAL(0.5f), LOAD(wetness));
+  STORE(saturate(amount * patch) * LOAD(alpha), out);
+}
+
+// Colours run into each other where the paper is wet. Montesdeoca et al. 2017.
+kernel void bleed(canvas absorbance, image around, image wet) {
+  const real a = LOAD(absorbance);
+  STORE(blend(a, LOAD(around), saturate(LOAD(wet))), absorbance);
+}
+
+// sRGB of the paper under the paint. shading: of the paper's relief, Montesdeoca et al. 2017.
+kernel void develop(int width, int pitch, image red, image green, image blue, image relief,
+                    float4 paper, float shading, global uchar* rgb) {
+  const int column = get_global_id(0), row = get_global_id(1);
+  const int i = row * pitch + column;
+  const float3 absorbance = {red[i], green[i], blue[i]};
+  const float lamp = fma(shading, relief[i] - 1.0f, 1.0f);
+  const float3 color = 255.0f * lamp * paper.xyz * exp(-absorbance);
+  vstore3(convert_uchar3_sat_rte(color), row * width + column, rgb);
+}

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+// A watercolour, layer over layer.
+#include "watercolour/paint.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "device/opencl.h"
+#include "leafhull/error.h"
+#include "watercolour/passes.h"
+
+namespace leafhull::watercolour {
+namespace {
+
+constexpr float kWrap = 0.25f;    // how far light reaches around a mass
+constexpr float kLeafScale = 45;  // leaf-sized cells that break edges, in the scene
+
+Vec3f absorbance(Vec3f color) {
+  const auto of = [](float c) { return -std::log(std::max(c, 1 / 255.0f)); };
+  return {of(color.x), of(color.y), of(color.z)};
+}
+
+/// One picture while it is painted.
+class Painting {
+ public:
+  Painting(Passes& passes, const PaperPlanes& paper, const render::Buffers& buffers,
+           const Style& style)
+      : passes_(passes),
+        paper_(paper),
+        buffers_(buffers),
+        style_(style),
+        unit_(static_cast<float>(buffers.height)),
+        absorbance_{passes.constant(0), passes.constant(0), passes.constant(0)} {}
+
+  std::vector<std::uint8_t> paint(std::span<const Stroke> leaves) {
+    const SeenPlanes seen = passes_.see(buffers_, style_.sky, kWrap);
+    const Plane foliage = passes_.upload(buffers_.foliage), wood = passes_.upload(buffers_.wood);
+    const Plane everywhere = passes_.constant(1);
+    look_around(seen);
+
+    const Plane visible = passes_.visibility(seen, around_.seen, around_.far, style_.melting);
+    const Plane reserved = passes_.mask(everywhere, visible, style_.gaps);
+
+    // Wood first: foliage is painted over its edges.
+    const Plane bark = lay(style_.wood, blurred(wood, style_.wood), visible);
+    lay(style_.wood_shadow, dark(seen, style_.wood_shadow), bark);
+
+    const Plane outline = blurred(foliage, style_.ambient);
+    const Plane crown = lay(style_.ambient, outline, reserved);
+    const Plane inside = passes_.mask(crown, visible, 1);
+    lay(style_.tone, dark(seen, style_.tone), inside);
+    lay(style_.shadow, dark(seen, style_.shadow), inside);
+    run_together(crown);
+    if (style_.detail > 0 && !leaves.empty()) {
+      lay(style_.leaves, strokes(leaves, outline), everywhere);
+    }
+    return passes_.develop(absorbance_, paper_.relief, style_.paper, style_.relief);
+  }
+
+ private:
+  /// Neighbourhoods, so that what depends on places goes on softly beyond the silhouette.
+  void look_around(const SeenPlanes& seen) {
+    const float sigma = 0.006f * unit_;
+    around_ = {passes_.blur(seen.seen, sigma), passes_.blur(seen.light, sigma),
+               passes_.blur(seen.far, sigma),  passes_.blur(seen.x, sigma),
+               passes_.blur(seen.y, sigma),    passes_.blur(seen.z, sigma)};
+    flow_ = passes_.flow(around_, style_.eddies, kLeafScale, style_.seed);
+    dark_around_ = passes_.darkness(around_.light, around_.seen);
+  }
+
+  Plane blurred(const Plane& plane, const Wash& wash) {
+    return passes_.blur(plane, wash.size * unit_);
+  }
+
+  Plane dark(const SeenPlanes& seen, const Wash& wash) {
+    return passes_.darkness(blurred(seen.light, wash), blurred(seen.seen, wash));
+  }
+
+  /// Paints a wash where `rho`, a blurred image, says, and returns where it lies.
+  Plane lay(const Wash& wash, const Plane& rho, const Plane& within) {
+    const float crisp = std::min(0.5f, 0.35f / std::max(wash.size * unit_, 0.7f));
+    Edge edge;
+    edge.level = wash.level;
+    edge.softness = crisp + (0.5f - crisp) * wash.wetness;
+    edge.lost = 0.5f * wash.lost_edges;
+    edge.dryness = wash.dry_brush * style_.roughness;
+    edge.wobble = style_.wobble;
+    edge.raggedness = wash.raggedness;
+    const Plane alpha = passes_.layer(rho, within, paper_, flow_, edge);
+    const Plane around = passes_.blur(alpha, style_.edge_width * unit_);
+    const Plane density = passes_.darken_edges(alpha, around, wash.edge_darkening);
+    passes_.dilute(density, flow_.turbulence, dark_around_, style_.turbulence,
+                   &wash == &style_.ambient ? style_.dilution : 0);
+    passes_.granulate(density, paper_, wash.granulation * style_.roughness, style_.dispersion);
+    const Vec3f cool = absorbance(wash.cool), warm = absorbance(wash.warm);
+    passes_.glaze(density, flow_.warmth, {cool * wash.strength, warm * wash.strength},
+                  style_.warm_cool, absorbance_);
+    return alpha;
+  }
+
+  /// Colours bleed where the crown is wet.
+  void run_together(const Plane& crown) {
+    if (style_.bleeding <= 0 || style_.bleeding_width <= 0) return;
+    const float sigma = style_.bleeding_width * unit_;
+    const Plane wet =
+        passes_.blur(passes_.wet(flow_.wetness, crown, 1.6f * style_.bleeding), sigma);
+    for (const Plane& plane : absorbance_) passes_.bleed(plane, passes_.blur(plane, sigma), wet);
+  }
+
+  Plane strokes(std::span<const Stroke> leaves, const Plane& outline) {
+    const std::vector<float> outline_here = passes_.download(outline);
+    const std::vector<float> dark_here = passes_.download(dark_around_);
+    const Room room{buffers_.width, buffers_.height, outline_here, dark_here, buffers_.depth};
+    return passes_.upload(paint_leaves(leaves, room,
+                                       {.detail = style_.detail,
+                                        .size = style_.leaf_size,
+                                        .least = style_.leaf_width * unit_,
+                                        .tolerance = 0.5f * style_.melting}));
+  }
+
+  Passes& passes_;
+  const PaperPlanes& paper_;
+  const render::Buffers& buffers_;
+  const Style& style_;
+  float unit_;  ///< the picture's height, pixels
+  SeenPlanes around_;
+  FlowPlanes flow_;
+  Plane dark_around_;
+  std::array<Plane, 3> absorbance_;
+};
+
+}  // namespace
+
+struct Painter::Impl {
+  Device& device;
+  int width = 0, height = 0;
+  std::optional<Passes> passes{};
+  PaperPlanes paper{};
+  float grain = 0;
+  std::uint32_t seed = 0;
+
+  void prepare(const render::Buffers& buffers, const Style& style) {
+    const bool same_size = passes && buffers.width == width && buffers.height == height;
+    if (!same_size) {
+      paper = {};
+      passes.emplace(device, buffers.width, buffers.height);
+      width = buffers.width, height = buffers.height;
+    }
+    if (same_size && paper.height && style.grain == grain && style.seed == seed) return;
+    const int cells = std::max(1, static_cast<int>(std::lround(1 / style.grain)));
+    paper = passes->paper(static_cast<float>(height), cells, style.seed);
+    grain = style.grain, seed = style.seed;
+  }
+};
+
+Painter::Painter(Device& device) : impl_(new Impl{device}) {}
+Painter::~Painter() = default;
+Painter::Painter(Painter&&) noexcept = default;
+
+Picture Painter::paint(const render::Buffers& buffers, std::span<const Stroke> leaves,
+                       const Style& style) {
+  try {
+    impl_->prepare(buffers, style);
+    Painting painting(*impl_->passes, impl_->paper, buffers, style);
+    return {buffers.width, buffers.height, painting.paint(leaves)};
+  } catch (const cl::Error& error) {
+    throw Error(ErrorCode::device,
+                "painting a watercolour of " + std::to_string(buffers.width) + "x" +
+                    std::to_string(buffers.height) + " failed on '" + impl_->device.info().name +
+                    "': " + error.what() + " returned " + std::to_string(error.err()),
+                "Try a smaller picture or another device (`leafhull devices`).");
+  }
+}
+
+}  // namespace leafhull::watercolour

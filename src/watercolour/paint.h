@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <span>
+
+#include "leafhull/device.h"
+#include "leafhull/picture.h"
+#include "render/buffers.h"
+#include "watercolour/strokes.h"
+#include "watercolour/style.h"
+
+namespace leafhull::watercolour {
+
+/// Paints watercolours. Its kernels are built, and its paper and planes kept, between pictures of
+/// one size.
+class Painter {
+ public:
+  explicit Painter(Device& device);
+  ~Painter();
+  Painter(Painter&&) noexcept;
+
+  /// What `buffers` see, in watercolour. Lengths of the style scale with the picture's height.
+  /// @param leaves the tree's leaves, in any order that is the same each time; may be empty
+  /// @throws Error device: out of memory, a kernel that does not build, a failing driver.
+  Picture paint(const render::Buffers& buffers, std::span<const Stroke> leaves, const Style& style);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace leafhull::watercolour

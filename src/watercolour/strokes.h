@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "leafhull/vec.h"
+
+namespace leafhull::watercolour {
+
+/// A leaf as the camera sees it; pixels from the picture's top left corner.
+struct Stroke {
+  Vec2f centre, half_major, half_minor;
+  float depth = 0;  ///< as render::Buffers::depth
+  std::uint32_t leaf = 0;
+};
+
+/// Where strokes may go.
+struct Room {
+  int width = 0, height = 0;
+  std::span<const float> outline;  ///< 0 outside the foliage to 1 inside, soft
+  std::span<const float> dark;     ///< 1 - the light
+  std::span<const float> depth;    ///< of the nearest surface, infinite on paper
+};
+
+struct Brush {
+  float detail = 0.5f;  ///< the part of the leaves that is painted
+  float size = 1;       ///< of a stroke, in leaves
+  float least = 0;      ///< of the half-length, pixels
+  float tolerance = 0;  ///< how far behind the surface a leaf is still painted
+};
+
+/// How much of each pixel strokes cover, 0..1: leaves at the silhouette and in the light, chosen by
+/// a hash of the leaf alone, so that a leaf that turns with the tree stays or fades.
+std::vector<float> paint_leaves(std::span<const Stroke> strokes, const Room& room,
+                                const Brush& brush);
+
+}  // namespace leafhull::watercolour

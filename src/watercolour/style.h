@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+
+#include "leafhull/vec.h"
+
+namespace leafhull::watercolour {
+
+/// One layer of paint: what it looks like on white paper, and how the brush lays it.
+struct Wash {
+  Vec3f cool, warm;          ///< sRGB of a coat of strength 1
+  float strength = 1;        ///< pigment in the water
+  float level = 0.5f;        ///< how dark (washes of tone) or how near (outlines) it begins
+  float size = 0.006f;       ///< of the shapes it is simplified to, of the picture's height
+  float wetness = 0.1f;      ///< of its edges: 0 wet on dry to 1 wet on wet
+  float lost_edges = 0;      ///< how much wetter they are in patches
+  float edge_darkening = 1;  ///< pigment carried to the rim
+  float granulation = 0.3f;  ///< pigment in the valleys of the paper
+  float raggedness = 0;      ///< how leaves break the edge
+  float dry_brush = 0;       ///< how the paper's peaks break the edge
+};
+
+/// How a watercolour is painted. Lengths are parts of the picture's height.
+struct Style {
+  std::uint32_t seed = 1;
+
+  Vec3f paper{0.995f, 0.99f, 0.975f};  ///< sRGB
+  float grain = 0.006f;                ///< the width of the paper's grain
+  float roughness = 1;                 ///< how much of it paint feels
+  float relief = 0.05f;                ///< how much of it is seen in the light
+
+  float sky = 0.35f;         ///< the sky's share of the light that tones are read from
+  float dilution = 0.6f;     ///< how much the lights are thinned towards the paper
+  float warm_cool = 0.6f;    ///< how far colours lean to warm and cool across the crown
+  float turbulence = 0.35f;  ///< unevenness of the pigment in the water
+  float eddies = 7;          ///< of the turbulence, across the scene
+  float dispersion = 0.1f;   ///< specks of pigment
+  float bleeding = 0.5f;     ///< how much wet patches run into each other
+  float bleeding_width = 0.012f;
+  float edge_width = 0.0035f;  ///< of dark rims
+  float wobble = 0.05f;        ///< how an edge sways
+  float melting = 0.05f;       ///< how far behind another a mass has melted away; in the scene
+  float gaps = 0.3f;           ///< paper left free behind a mass in front
+
+  float detail = 0.4f;        ///< how many leaves are painted one by one
+  float leaf_size = 1;        ///< of their strokes, in leaves
+  float leaf_width = 0.004f;  ///< the least half-length of a stroke
+
+  Wash ambient, tone, shadow, wood, wood_shadow, leaves, ground;
+};
+
+/// A key of a style file.
+struct StyleKey {
+  std::string_view name;  ///< as in "bleeding"; of a wash, as in "shadow.wetness"
+  std::string_view range, help;
+  std::variant<std::uint32_t Style::*, float Style::*, Vec3f Style::*, float Wash::*, Vec3f Wash::*>
+      member;
+  float low = 0, high = 0;
+};
+
+/// The keys of a style, then those that every wash has.
+std::span<const StyleKey> style_keys();
+std::span<const StyleKey> wash_keys();
+
+struct WashName {
+  std::string_view name, help;
+  Wash Style::*wash;
+};
+std::span<const WashName> wash_names();
+
+/// The style that a JSON text describes; what it leaves out stays as in the shipped style that its
+/// key "base" names, `classic` without one.
+/// @param file its name, for messages.
+/// @throws Error usage: not JSON; or a key that is unknown, of a wrong type or out of range, named.
+Style parse_style(std::string_view json, const std::string& file);
+
+/// The shipped styles, `classic` first.
+std::span<const std::string_view> style_names();
+
+/// @throws Error usage: there is none of this name.
+Style shipped_style(std::string_view name);
+
+}  // namespace leafhull::watercolour
