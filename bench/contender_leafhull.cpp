@@ -41,7 +41,8 @@ double seconds_of_isotropic_field(const LeafSet& leaves, const Report& report, D
     const auto hash =
         std::make_shared<const SpatialHash>(kernels, hash_cells(leaves, report.radius_max_model));
     DensityFunction density(device, kernels, hash, lattice, report.options.falloff);
-    density.sample_band({report.threshold}, 1, false, [](double) {});
+    density.sample_band({report.threshold}, 1, false, DensityFunction::Lists::forget,
+                        [](double) {});
   });
 }
 

@@ -21,21 +21,27 @@ struct BrickList {
   std::vector<std::uint32_t> kernels;
 
   std::size_t size() const { return origins.size(); }
-  /// @throws Error usage where the lists outgrow 32 bits.
+  /// @throws Error usage where the lists outgrow 32 bits, as append does.
   void add(Coord origin, std::span<const std::uint32_t> near) {
-    if (kernels.size() + near.size() > std::numeric_limits<std::uint32_t>::max()) {
-      throw Error(ErrorCode::usage, "too many kernels reach one place",
-                  "Lower --radius-max or --leaf-scale.");
-    }
+    make_room(near.size());
     origins.push_back(origin);
     kernels.insert(kernels.end(), near.begin(), near.end());
     first.push_back(static_cast<std::uint32_t>(kernels.size()));
   }
   void append(const BrickList& other) {
+    make_room(other.kernels.size());
     const std::uint32_t offset = first.back();
     origins.insert(origins.end(), other.origins.begin(), other.origins.end());
     kernels.insert(kernels.end(), other.kernels.begin(), other.kernels.end());
     for (std::size_t b = 1; b < other.first.size(); ++b) first.push_back(offset + other.first[b]);
+  }
+
+ private:
+  void make_room(std::size_t more) const {
+    if (kernels.size() + more > std::numeric_limits<std::uint32_t>::max()) {
+      throw Error(ErrorCode::usage, "too many kernels reach one place",
+                  "Lower --radius-max, --leaf-scale or --resolution.");
+    }
   }
 };
 

@@ -49,13 +49,18 @@ cl::Program Device::Engine::build(const cl::Program::Sources& sources,
   }
 }
 
-cl::Kernel Device::Engine::kernel(const char* name, int falloff) {
-  auto program = programs.find(falloff);
-  if (program == programs.end()) {
-    program =
-        programs.emplace(falloff, build(sources(vector()), build_options(vector(), falloff))).first;
+cl::Kernel Device::Engine::kernel(const char* name, const std::string& program,
+                                  const cl::Program::Sources& sources, const std::string& options) {
+  const std::pair key(program, options);
+  auto built = programs.find(key);
+  if (built == programs.end()) {
+    built = programs.emplace(key, build(sources, options)).first;
   }
-  return cl::Kernel(program->second, name);
+  return cl::Kernel(built->second, name);
+}
+
+cl::Kernel Device::Engine::kernel(const char* name, int falloff) {
+  return kernel(name, "density", sources(vector()), build_options(vector(), falloff));
 }
 
 }  // namespace leafhull

@@ -2,10 +2,16 @@
 #pragma once
 
 #include <map>
+#include <span>
 #include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <vector>
 
 #include "device/opencl.h"
 #include "leafhull/device.h"
+#include "leafhull/error.h"
 
 namespace leafhull {
 
@@ -19,7 +25,7 @@ struct Device::Engine {
   cl::Device device;
   cl::Context context;
   cl::CommandQueue queue;
-  std::map<int, cl::Program> programs;  ///< by falloff
+  std::map<std::pair<std::string, std::string>, cl::Program> programs;  ///< by name and options
 
   /// True for the variant with explicit vectors.
   bool vector() const { return info.variant == "vector"; }
@@ -30,9 +36,58 @@ struct Device::Engine {
   /// @throws Error device: the compiler's log.
   cl::Program build(const cl::Program::Sources& sources, const std::string& options) const;
 
-  /// The kernel `name` for a falloff, from a program that is built at the first call.
+  /// A kernel of the program `program`, which is built at the first call with these options.
+  /// @throws Error device, as build.
+  cl::Kernel kernel(const char* name, const std::string& program,
+                    const cl::Program::Sources& sources, const std::string& options);
+
+  /// The density kernel `name` for a falloff.
   /// @throws Error device, as build.
   cl::Kernel kernel(const char* name, int falloff);
+
+  /// Runs `work`, OpenCL's exceptions told in our words.
+  template <class Work>
+  auto run(const char* what, Work&& work) {
+    try {
+      return work();
+    } catch (const cl::Error& error) {
+      clFinish(queue());  // nothing may still use the host's buffers
+      throw Error(ErrorCode::device,
+                  std::string(what) + " failed on '" + info.name + "': " + error.what() +
+                      " returned " + std::to_string(error.err()),
+                  "Try a lower resolution or another device (`leafhull devices`).");
+    }
+  }
+
+  /// A buffer over host values, in place where the device shares the host's memory. OpenCL has no
+  /// empty buffers: no values give one byte.
+  template <class T>
+  cl::Buffer buffer(std::span<T> values, cl_mem_flags access) const {
+    if (values.empty()) return cl::Buffer(context, access, 1);
+    if (access == CL_MEM_WRITE_ONLY && !shares_memory()) {
+      return cl::Buffer(context, access, values.size_bytes());
+    }
+    const cl_mem_flags place = shares_memory() ? CL_MEM_USE_HOST_PTR : CL_MEM_COPY_HOST_PTR;
+    return cl::Buffer(context, access | place, values.size_bytes(),
+                      const_cast<std::remove_const_t<T>*>(values.data()));
+  }
+  template <class T>
+  cl::Buffer input(const std::vector<T>& values) const {
+    return buffer(std::span<const T>(values), CL_MEM_READ_ONLY);
+  }
+
+  /// Waits for the device and makes what it wrote visible in `values`.
+  template <class T>
+  void fetch(const cl::Buffer& buffer, std::span<T> values) {
+    if (values.empty()) return;
+    if (shares_memory()) {
+      void* mapped = queue.enqueueMapBuffer(buffer, CL_TRUE, CL_MAP_READ, 0, values.size_bytes());
+      queue.enqueueUnmapMemObject(buffer, mapped);
+      queue.finish();
+    } else {
+      queue.enqueueReadBuffer(buffer, CL_TRUE, 0, values.size_bytes(), values.data());
+    }
+  }
 };
 
 }  // namespace leafhull

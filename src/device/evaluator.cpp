@@ -23,51 +23,6 @@ struct Evaluator::Impl {
   int falloff;
   cl::Buffer kernels;
 
-  /// Runs `work`, OpenCL's exceptions told in our words.
-  template <class Work>
-  auto run(const char* what, Work&& work) {
-    try {
-      return work();
-    } catch (const cl::Error& error) {
-      clFinish(engine.queue());  // nothing may still use the host's buffers
-      throw Error(ErrorCode::device,
-                  std::string(what) + " failed on '" + engine.info.name + "': " + error.what() +
-                      " returned " + std::to_string(error.err()),
-                  "Try a lower resolution or another device (`leafhull devices`).");
-    }
-  }
-
-  /// A buffer over host values, in place where the device shares the host's memory. OpenCL has no
-  /// empty buffers: no values give one byte.
-  template <class T>
-  cl::Buffer buffer(std::span<T> values, cl_mem_flags access) {
-    if (values.empty()) return cl::Buffer(engine.context, access, 1);
-    if (access == CL_MEM_WRITE_ONLY && !engine.shares_memory()) {
-      return cl::Buffer(engine.context, access, values.size_bytes());
-    }
-    const cl_mem_flags place = engine.shares_memory() ? CL_MEM_USE_HOST_PTR : CL_MEM_COPY_HOST_PTR;
-    return cl::Buffer(engine.context, access | place, values.size_bytes(),
-                      const_cast<std::remove_const_t<T>*>(values.data()));
-  }
-  template <class T>
-  cl::Buffer input(const std::vector<T>& values) {
-    return buffer(std::span<const T>(values), CL_MEM_READ_ONLY);
-  }
-
-  /// Waits for the device and makes what it wrote visible in `values`.
-  template <class T>
-  void fetch(const cl::Buffer& buffer, std::span<T> values) {
-    if (values.empty()) return;
-    if (engine.shares_memory()) {
-      void* mapped =
-          engine.queue.enqueueMapBuffer(buffer, CL_TRUE, CL_MAP_READ, 0, values.size_bytes());
-      engine.queue.enqueueUnmapMemObject(buffer, mapped);
-      engine.queue.finish();
-    } else {
-      engine.queue.enqueueReadBuffer(buffer, CL_TRUE, 0, values.size_bytes(), values.data());
-    }
-  }
-
   void launch_points(const cl::Kernel& kernel, std::size_t chunks) {
     const std::size_t group = engine.vector() ? 1 : kPointsPerGroup;
     const std::size_t items = engine.vector() ? chunks : chunks * kChunkPoints;
@@ -79,8 +34,9 @@ struct Evaluator::Impl {
 
 Evaluator::Evaluator(Device& device, const KernelSet& kernels, int falloff)
     : impl_(new Impl{device.engine(), falloff, {}}) {
-  impl_->run("sending the kernels",
-             [&] { impl_->kernels = impl_->buffer(kernels.kernels(), CL_MEM_READ_ONLY); });
+  impl_->engine.run("sending the kernels", [&] {
+    impl_->kernels = impl_->engine.buffer(kernels.kernels(), CL_MEM_READ_ONLY);
+  });
 }
 
 Evaluator::~Evaluator() = default;
@@ -92,9 +48,9 @@ std::uint64_t Evaluator::sample(const BrickList& bricks, std::span<float> sample
   for (const Coord o : bricks.origins) origins.push_back({{o.x, o.y, o.z, 0}});
   std::vector<std::uint32_t> pairs(bricks.size());
 
-  d.run("evaluating the density", [&] {
+  d.engine.run("evaluating the density", [&] {
     cl::Kernel kernel = d.engine.kernel("density_bricks", d.falloff);
-    const cl::Buffer list = d.input(bricks.kernels);
+    const cl::Buffer list = d.engine.input(bricks.kernels);
     kernel.setArg(0, d.kernels);
     kernel.setArg(3, list);
     const std::size_t items = d.engine.vector() ? 1 : kWorkItems;
@@ -102,20 +58,20 @@ std::uint64_t Evaluator::sample(const BrickList& bricks, std::span<float> sample
       const std::size_t count = std::min(kBricksPerLaunch, bricks.size() - begin);
       const auto out = samples.subspan(begin * kBrickSamples, count * kBrickSamples);
       const auto out_pairs = std::span(pairs).subspan(begin, count);
-      const cl::Buffer origins_in =
-          d.buffer(std::span<const cl_int4>(origins).subspan(begin, count), CL_MEM_READ_ONLY);
-      const cl::Buffer first_in = d.buffer(
+      const cl::Buffer origins_in = d.engine.buffer(
+          std::span<const cl_int4>(origins).subspan(begin, count), CL_MEM_READ_ONLY);
+      const cl::Buffer first_in = d.engine.buffer(
           std::span<const std::uint32_t>(bricks.first).subspan(begin, count + 1), CL_MEM_READ_ONLY);
-      const cl::Buffer samples_out = d.buffer(out, CL_MEM_WRITE_ONLY);
-      const cl::Buffer pairs_out = d.buffer(out_pairs, CL_MEM_WRITE_ONLY);
+      const cl::Buffer samples_out = d.engine.buffer(out, CL_MEM_WRITE_ONLY);
+      const cl::Buffer pairs_out = d.engine.buffer(out_pairs, CL_MEM_WRITE_ONLY);
       kernel.setArg(1, origins_in);
       kernel.setArg(2, first_in);
       kernel.setArg(4, samples_out);
       kernel.setArg(5, pairs_out);
       d.engine.queue.enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(count * items),
                                           cl::NDRange(items));
-      d.fetch(samples_out, out);
-      d.fetch(pairs_out, out_pairs);
+      d.engine.fetch(samples_out, out);
+      d.engine.fetch(pairs_out, out_pairs);
     }
   });
   std::uint64_t total = 0;
@@ -126,18 +82,19 @@ std::uint64_t Evaluator::sample(const BrickList& bricks, std::span<float> sample
 std::vector<float> Evaluator::density(const PointBatch& batch) {
   Impl& d = *impl_;
   std::vector<float> density(batch.index.size());
-  d.run("evaluating the density at points", [&] {
+  d.engine.run("evaluating the density at points", [&] {
     cl::Kernel kernel = d.engine.kernel("density_points", d.falloff);
-    const cl::Buffer in[] = {d.input(batch.chunks), d.input(batch.kernels), d.input(batch.x),
-                             d.input(batch.y), d.input(batch.z)};
-    const cl::Buffer out = d.buffer(std::span(density), CL_MEM_WRITE_ONLY);
+    const cl::Buffer in[] = {d.engine.input(batch.chunks), d.engine.input(batch.kernels),
+                             d.engine.input(batch.x), d.engine.input(batch.y),
+                             d.engine.input(batch.z)};
+    const cl::Buffer out = d.engine.buffer(std::span(density), CL_MEM_WRITE_ONLY);
     kernel.setArg(0, d.kernels);
     kernel.setArg(1, in[0]);
     kernel.setArg(2, static_cast<cl_uint>(batch.chunks.size()));
     for (cl_uint i = 1; i < 5; ++i) kernel.setArg(2 + i, in[i]);
     kernel.setArg(7, out);
     d.launch_points(kernel, batch.chunks.size());
-    d.fetch(out, std::span(density));
+    d.engine.fetch(out, std::span(density));
   });
   return density;
 }
@@ -146,9 +103,9 @@ Evaluator::Normals Evaluator::snap(PointBatch& batch, double threshold, int step
   Impl& d = *impl_;
   Normals normals;
   for (auto* v : {&normals.x, &normals.y, &normals.z}) v->resize(batch.index.size());
-  d.run("moving vertices onto the surface", [&] {
+  d.engine.run("moving vertices onto the surface", [&] {
     cl::Kernel kernel = d.engine.kernel("snap_points", d.falloff);
-    const cl::Buffer chunks = d.input(batch.chunks), list = d.input(batch.kernels);
+    const cl::Buffer chunks = d.engine.input(batch.chunks), list = d.engine.input(batch.kernels);
     kernel.setArg(0, d.kernels);
     kernel.setArg(1, chunks);
     kernel.setArg(2, static_cast<cl_uint>(batch.chunks.size()));
@@ -159,11 +116,11 @@ Evaluator::Normals Evaluator::snap(PointBatch& batch, double threshold, int step
                                         &normals.x, &normals.y, &normals.z};
     cl::Buffer out[6];
     for (cl_uint i = 0; i < 6; ++i) {
-      out[i] = d.buffer(std::span(*host[i]), CL_MEM_READ_WRITE);
+      out[i] = d.engine.buffer(std::span(*host[i]), CL_MEM_READ_WRITE);
       kernel.setArg(6 + i, out[i]);
     }
     d.launch_points(kernel, batch.chunks.size());
-    for (cl_uint i = 0; i < 6; ++i) d.fetch(out[i], std::span(*host[i]));
+    for (cl_uint i = 0; i < 6; ++i) d.engine.fetch(out[i], std::span(*host[i]));
   });
   return normals;
 }

@@ -59,7 +59,7 @@ std::vector<float> DensityFunction::interpolated_at(std::span<const Vec3d> point
 }
 
 DensityFunction::Sampled DensityFunction::sample_band(std::vector<double> thresholds, int margin,
-                                                      bool dense,
+                                                      bool dense, Lists lists,
                                                       const std::function<void(double)>& advance) {
   Sampled result{Field(kernels_.lattice(), thresholds.front())};
   if (dense) thresholds.clear();
@@ -71,6 +71,7 @@ DensityFunction::Sampled DensityFunction::sample_band(std::vector<double> thresh
     const auto samples = std::make_unique_for_overwrite<float[]>(size);
     result.pairs += evaluator_.sample(bricks, {samples.get(), size});
     field.add_bricks(bricks.origins, {samples.get(), size});
+    if (lists == Lists::keep) result.lists.append(bricks);
     advance(done);
   });
   field.add_inside(inside);

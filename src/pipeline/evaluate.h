@@ -37,16 +37,20 @@ class DensityFunction {
   struct Sampled {
     Field field;
     std::uint64_t pairs = 0;  ///< kernel-sample pairs evaluated
+    BrickList lists;          ///< the kernels near each brick of the field, where asked for
   };
   /// N where a surface N = T may be, for all `thresholds`, ascending (`dense`: wherever a support
   /// reaches), blocks being grown by `margin` voxels before they are decided. `advance` is told the
   /// share that is done. The field's own threshold is the lowest.
-  Sampled sample_band(std::vector<double> thresholds, int margin, bool dense,
+  enum class Lists { forget, keep };
+  Sampled sample_band(std::vector<double> thresholds, int margin, bool dense, Lists lists,
                       const std::function<void(double)>& advance);
 
   /// Moves points onto N = threshold within their cells, in at most `steps` steps, and returns the
   /// outward unit normals there, zero where the gradient vanishes.
   std::vector<Vec3f> snap(std::span<Vec3f> points, double threshold, int steps);
+
+  const KernelSet& kernels() const { return kernels_; }
 
  private:
   KernelSet kernels_;

@@ -122,9 +122,10 @@ const Field& Stages::sample(const Report& prepared, const std::vector<double>& t
     const auto& [kernels, voxel_size, margin, dense] = key;
     density_.emplace(device_, kernels_.value, hash_.value, lattice_of(leaves_, prepared),
                      prepared.options.falloff);
-    auto [field, pairs] = density_->sample_band(thresholds, margin, dense,
-                                                [&](double done) { watch_.advance(done); });
-    return Sampled{std::make_shared<const Field>(std::move(field)), pairs};
+    auto [field, pairs, lists] = density_->sample_band(thresholds, margin, dense, lists_,
+                                                       [&](double done) { watch_.advance(done); });
+    return Sampled{std::make_shared<const Field>(std::move(field)), pairs,
+                   std::make_shared<const BrickList>(std::move(lists))};
   });
   return *sampled_.value.field;
 }

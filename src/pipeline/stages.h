@@ -55,9 +55,12 @@ FieldKey field_key(const Report& report);
 /// where what it depends on has changed.
 class Stages {
  public:
-  /// All three must outlive it.
-  Stages(const LeafSet& leaves, Device& device, Stopwatch& watch)
-      : leaves_(leaves), device_(device), watch_(watch) {}
+  using Lists = DensityFunction::Lists;
+
+  /// All three must outlive it, but for what it hands out. `lists`: of the kernels near each brick
+  /// of a field, for rays.
+  Stages(const LeafSet& leaves, Device& device, Stopwatch& watch, Lists lists = Lists::forget)
+      : leaves_(leaves), device_(device), watch_(watch), lists_(lists) {}
 
   /// Steps 1 to 5 for the report's options, which are resolved, and T: sets what the report says
   /// of the grid, the density, T, the leaves and the device.
@@ -86,11 +89,13 @@ class Stages {
   std::vector<Kernel> take_kernels() { return std::move(kernels_.value); }
   std::vector<float> take_isotropic_density() { return std::move(isotropic_density_.value); }
   std::shared_ptr<const Field> field() const { return sampled_.value.field; }
+  std::shared_ptr<const BrickList> lists() const { return sampled_.value.lists; }
 
  private:
   struct Sampled {
     std::shared_ptr<const Field> field;
     std::uint64_t pairs = 0;
+    std::shared_ptr<const BrickList> lists;
   };
 
   std::vector<float> density_at_leaves(const Report& report, std::span<const Kernel> kernels) const;
@@ -98,6 +103,7 @@ class Stages {
   const LeafSet& leaves_;
   Device& device_;
   Stopwatch& watch_;
+  Lists lists_;
   Kept<double, std::shared_ptr<const SpatialHash>> hash_;  ///< by R_max
   Kept<DensityKey, std::vector<float>> isotropic_density_;
   Kept<KernelsKey, std::vector<Kernel>> kernels_;

@@ -70,19 +70,43 @@ std::vector<double> volumes(const Polygons& polygons, const Roots& root) {
   return volume;
 }
 
+/// Which components are large enough.
+class Components {
+ public:
+  Components(const Polygons& polygons, double smallest)
+      : root_(polygons), volume_(volumes(polygons, root_)) {
+    if (!volume_.empty()) {
+      least_ = smallest * *std::max_element(volume_.begin(), volume_.end());
+    }
+  }
+  bool is_root(std::uint32_t v) const { return root_[v] == v; }
+  bool stays(std::uint32_t v) const { return volume_[root_[v]] >= least_; }
+
+ private:
+  Roots root_;
+  std::vector<double> volume_;
+  double least_ = 0;
+};
+
 }  // namespace
 
-ComponentCount drop_small_components(Polygons& polygons, double smallest) {
-  const Roots root(polygons);
-  const std::vector<double> volume = volumes(polygons, root);
-  const double least =
-      volume.empty() ? 0 : smallest * *std::max_element(volume.begin(), volume.end());
-  const auto stays = [&](std::uint32_t v) { return volume[root[v]] >= least; };
+ComponentCells cells_of_components(const Polygons& polygons, double smallest) {
+  const Components components(polygons, smallest);
+  ComponentCells cells;
+  for (std::uint32_t v = 0; v < polygons.points.size(); ++v) {
+    const Coord cell = cell_of(Vec3d(polygons.points[v]));
+    (components.stays(v) ? cells.kept : cells.dropped).push_back(cell);
+  }
+  return cells;
+}
 
+ComponentCount drop_small_components(Polygons& polygons, double smallest) {
+  const Components components(polygons, smallest);
+  const auto stays = [&](std::uint32_t v) { return components.stays(v); };
   ComponentCount count;
   const auto vertices = static_cast<std::uint32_t>(polygons.points.size());
   for (std::uint32_t v = 0; v < vertices; ++v) {
-    if (root[v] == v) ++(stays(v) ? count.kept : count.dropped);
+    if (components.is_root(v)) ++(stays(v) ? count.kept : count.dropped);
   }
   if (count.dropped == 0) return count;
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "surface/polygonise.h"
 
@@ -15,5 +16,12 @@ struct ComponentCount {
 /// the largest one's; the order of what stays is kept. A hollow inside another component is a
 /// component of its own, measured by the volume it takes away.
 ComponentCount drop_small_components(Polygons& polygons, double smallest);
+
+/// The lattice cells that hold the vertices of components which drop_small_components would keep,
+/// and of those that it would drop.
+struct ComponentCells {
+  std::vector<Coord> kept, dropped;
+};
+ComponentCells cells_of_components(const Polygons& polygons, double smallest);
 
 }  // namespace leafhull

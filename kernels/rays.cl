@@ -1,0 +1,512 @@
+// SPDX-License-Identifier: Apache-2.0
+// Rays against the surface N = T: no polygons.
+//
+// Space is root blocks of 32 samples; a root is outside, inside or 64 bricks of 8 samples, each
+// outside, inside or evaluated. In an evaluated brick N comes from the kernels near it, or where
+// SAMPLED is defined from its samples, trilinearly. Along a ray xi of a kernel is a parabola
+// (Kanamori et al., "GPU-based Fast Ray Casting for a Large Number of Metaballs", 2008, call what
+// is near a ray its active list); N is summed at STEPS points of a ray's way through a brick, and
+// the piece where it passes T is cut again, until it is shorter than 0.005 voxels.
+//
+// On a CPU a work-item takes LANES = 16 rays, neighbours that meet the same bricks; on a GPU one
+// (LANES = 1). Positions are voxels from the lattice's anchor, directions unit vectors.
+// Global size: the number of rays over LANES, or more.
+#include "density.clh"
+
+#ifndef LANES
+#define LANES 16
+#endif
+
+#if LANES == 16
+typedef float16 real;
+typedef int16 truth;
+#define ANY(c) any(c)
+#define TRUE ((truth)(-1))
+#else
+typedef float real;
+typedef int truth;
+#define ANY(c) (c)
+#define TRUE 1
+#endif
+#define REAL(x) ((real)(x))
+#define FALSE ((truth)(0))
+
+typedef union {
+  real v;
+  float lane[LANES];
+} Reals;
+typedef union {
+  truth v;
+  int lane[LANES];
+} Truths;
+
+typedef struct {
+  real x, y, z;
+} Real3;
+
+static Real3 along(Real3 from, Real3 way, real t) {
+  return (Real3){fma(t, way.x, from.x), fma(t, way.y, from.y), fma(t, way.z, from.z)};
+}
+
+// ---- Space ----
+
+#define ROOT_EDGE 32
+#define OUTSIDE (-1)
+#define INSIDE (-2)
+
+// `BrickGrid` of the host.
+typedef struct {
+  int low[3];                   // the first root block, in roots
+  int size[3];                  // roots along each axis
+  global const int* roots;      // OUTSIDE, INSIDE or the first of 64 in `children`
+  global const int* children;   // OUTSIDE, INSIDE or a brick
+  global const float* samples;  // N, BRICK_SAMPLES to a brick
+  global const uint* hidden;    // cells whose surface is not drawn, a bit each, 16 words to a brick
+} Grid;
+
+#define GRID_ARGUMENTS                                                                        \
+  int4 low, int4 size, global const int *restrict roots, global const int *restrict children, \
+      global const float *restrict samples, global const uint *restrict hidden
+#define GRID \
+  { {low.x, low.y, low.z}, {size.x, size.y, size.z}, roots, children, samples, hidden }
+
+typedef struct {
+  int low[3];
+  int edge;
+  int content;  // OUTSIDE, INSIDE or a brick
+} Block;
+
+static int root_at(const Grid* g, int x, int y, int z) {
+  const int i = (x >> 5) - g->low[0], j = (y >> 5) - g->low[1], k = (z >> 5) - g->low[2];
+  const int within =
+      (i >= 0) & (i < g->size[0]) & (j >= 0) & (j < g->size[1]) & (k >= 0) & (k < g->size[2]);
+  return within ? g->roots[(i * g->size[1] + j) * g->size[2] + k] : OUTSIDE;
+}
+
+static int child_at(const Grid* g, int root, int x, int y, int z) {
+  return g->children[root + ((x >> 3 & 3) * 4 + (y >> 3 & 3)) * 4 + (z >> 3 & 3)];
+}
+
+// What holds a cell.
+static Block block_at(const Grid* g, int x, int y, int z) {
+  Block b;
+  b.content = root_at(g, x, y, z);
+  b.edge = ROOT_EDGE;
+  if (b.content >= 0) {
+    b.content = child_at(g, b.content, x, y, z);
+    b.edge = BRICK_EDGE;
+  }
+  b.low[0] = x & -b.edge;
+  b.low[1] = y & -b.edge;
+  b.low[2] = z & -b.edge;
+  return b;
+}
+
+// The number of a cell or sample in its brick.
+static int in_brick(int x, int y, int z) { return ((x & 7) * 8 + (y & 7)) * 8 + (z & 7); }
+
+static int is_hidden(const Grid* g, int brick, int cell) {
+  return g->hidden[brick * (BRICK_SAMPLES / 32) + (cell >> 5)] >> (cell & 31) & 1;
+}
+
+static float sample_at(const Grid* g, float threshold, int x, int y, int z) {
+  const int content = block_at(g, x, y, z).content;
+  return content == OUTSIDE  ? 0.0f
+         : content == INSIDE ? threshold
+                             : g->samples[content * BRICK_SAMPLES + in_brick(x, y, z)];
+}
+
+// N between the samples, trilinearly.
+static float sampled_density(const Grid* g, float threshold, float x, float y, float z) {
+  const float fx = floor(x), fy = floor(y), fz = floor(z);
+  const int i = (int)fx, j = (int)fy, k = (int)fz;
+  float n[8];
+  if (((i & 7) < 7) & ((j & 7) < 7) & ((k & 7) < 7)) {
+    const int content = block_at(g, i, j, k).content;
+    if (content == OUTSIDE) return 0.0f;
+    if (content == INSIDE) return threshold;
+    global const float* s = g->samples + content * BRICK_SAMPLES + in_brick(i, j, k);
+    for (int c = 0; c < 8; ++c) n[c] = s[(c >> 2) * 64 + (c >> 1 & 1) * 8 + (c & 1)];
+  } else {
+    for (int c = 0; c < 8; ++c) {
+      n[c] = sample_at(g, threshold, i + (c >> 2), j + (c >> 1 & 1), k + (c & 1));
+    }
+  }
+  const float tx = x - fx, ty = y - fy, tz = z - fz;
+  for (int c = 0; c < 4; ++c) n[c] = fma(tx, n[c + 4] - n[c], n[c]);
+  for (int c = 0; c < 2; ++c) n[c] = fma(ty, n[c + 2] - n[c], n[c]);
+  return fma(tz, n[1] - n[0], n[0]);
+}
+
+// ---- A ray's way through a brick ----
+
+// Points on the way at which N is summed, both ends included.
+#define STEPS 16
+#define PIECES (STEPS - 1)
+// The longest way is 13.9 voxels: 0.93, 0.062 and 0.0041 voxels to a piece.
+#define ROUNDS 3
+
+// Where N comes from in a brick.
+typedef struct {
+  int low[3];  // its origin: positions count from there
+  global const Kernel* kernels;
+  global const uint* list;  // of those near it
+  uint count;
+  const Grid* grid;
+  float threshold;
+} Source;
+
+#ifdef SAMPLED
+
+static float sampled_near(const Source* s, float x, float y, float z) {
+  return sampled_density(s->grid, s->threshold, x + (float)s->low[0], y + (float)s->low[1],
+                         z + (float)s->low[2]);
+}
+
+static void sum_along(const Source* s, Real3 p, Real3 d, real step, real* n) {
+  for (int i = 0; i < STEPS; ++i) {
+    const Real3 q = along(p, d, step * (float)i);
+    n[i] = sampled_near(s, q.x, q.y, q.z);
+  }
+}
+
+// By differences over two voxels: smoother than the slope of a trilinear cell.
+static Real3 gradient_at(const Source* s, Real3 p) {
+  return (Real3){sampled_near(s, p.x + 1, p.y, p.z) - sampled_near(s, p.x - 1, p.y, p.z),
+                 sampled_near(s, p.x, p.y + 1, p.z) - sampled_near(s, p.x, p.y - 1, p.z),
+                 sampled_near(s, p.x, p.y, p.z + 1) - sampled_near(s, p.x, p.y, p.z - 1)};
+}
+
+#else
+
+typedef struct {
+  float x, y, z;
+} Centre;
+
+static Centre centre_of(const Source* s, global const Kernel* k) {
+  return (Centre){(float)(k->cell[0] - s->low[0]) + k->offset[0],
+                  (float)(k->cell[1] - s->low[1]) + k->offset[1],
+                  (float)(k->cell[2] - s->low[2]) + k->offset[2]};
+}
+
+// U v
+static Real3 transformed(global const Kernel* k, Real3 v) {
+  return (Real3){fma(REAL(k->xx), v.x, fma(REAL(k->xy), v.y, k->xz * v.z)),
+                 fma(REAL(k->yy), v.y, k->yz * v.z), k->zz * v.z};
+}
+
+static real dot3(Real3 a, Real3 b) { return fma(a.x, b.x, fma(a.y, b.y, a.z * b.z)); }
+
+// N at p + i step d, i < STEPS. Of a kernel, with q its point nearest to the ray, at s:
+// 1 - xi = (1 - |U q|^2) - |U d|^2 (t - s)^2, where no large numbers cancel however thin it is.
+static void sum_along(const Source* source, Real3 p, Real3 d, real step, real* n) {
+  for (int i = 0; i < STEPS; ++i) n[i] = REAL(0.0f);
+  const real length = step * (float)PIECES;
+  for (uint i = 0; i < source->count; ++i) {
+    global const Kernel* k = source->kernels + source->list[i];
+    const Centre c = centre_of(source, k);
+    const Real3 from = transformed(k, (Real3){p.x - c.x, p.y - c.y, p.z - c.z});
+    const Real3 way = transformed(k, d);
+    const real steepness = dot3(way, way);
+    const real s = -dot3(from, way) / steepness;
+    const Real3 q = along(from, way, s);
+    const real top = 1.0f - dot3(q, q);
+    // The nearest of the points summed at, at least.
+    const real beyond = fmax(fmax(-s, s - length), REAL(0.0f));
+    if (!ANY(fma(-steepness * beyond, beyond, top) > 0.0f)) continue;
+    const real slope = sqrt(steepness);
+    const real first = -s * slope, more = step * slope;
+#define ADD(i)                                         \
+  {                                                    \
+    const real u = fma(REAL((float)(i)), more, first); \
+    const real w = fmax(fma(-u, u, top), REAL(0.0f));  \
+    n[i] = ADD_POWER(n[i], w);                         \
+  }
+    ADD(0)
+    ADD(1) ADD(2) ADD(3) ADD(4) ADD(5) ADD(6) ADD(7) ADD(8) ADD(9) ADD(10) ADD(11) ADD(12) ADD(13)
+        ADD(14) ADD(15)
+#undef ADD
+  }
+}
+
+// The gradient of N, up to a positive factor.
+static Real3 gradient_at(const Source* source, Real3 p) {
+  Real3 g = {REAL(0.0f), REAL(0.0f), REAL(0.0f)};
+  for (uint i = 0; i < source->count; ++i) {
+    global const Kernel* k = source->kernels + source->list[i];
+    const Centre c = centre_of(source, k);
+    const Real3 u = transformed(k, (Real3){p.x - c.x, p.y - c.y, p.z - c.z});
+    const real w = fmax(1.0f - dot3(u, u), REAL(0.0f));
+    if (!ANY(w > 0.0f)) continue;
+#if FALLOFF == 1
+    const real slope = select(REAL(0.0f), REAL(-1.0f), w > REAL(0.0f));
+#elif FALLOFF == 2
+    const real slope = -w;
+#else
+    const real slope = -w * w;
+#endif
+    g.x = fma(slope, k->xx * u.x, g.x);
+    g.y = fma(slope, fma(REAL(k->xy), u.x, k->yy * u.y), g.y);
+    g.z = fma(slope, fma(REAL(k->xz), u.x, fma(REAL(k->yz), u.y, k->zz * u.z)), g.z);
+  }
+  return g;
+}
+
+#endif
+
+// Where N passes T between two of the points.
+typedef struct {
+  truth found;
+  real piece;          // its number
+  real before, after;  // N at its ends
+  truth enters;
+} Crossing;
+
+// The first crossing, `inside` telling the side of the first point.
+static Crossing first_crossing(const real* n, float threshold, truth inside) {
+  Crossing c = {FALSE, REAL(0.0f), REAL(0.0f), REAL(0.0f), !inside};
+  for (int i = 1; i < STEPS; ++i) {
+    const truth passes = ((n[i] >= threshold) ^ inside) & !c.found & TRUE;
+    c.piece = select(c.piece, REAL((float)(i - 1)), passes);
+    c.before = select(c.before, n[i - 1], passes);
+    c.after = select(c.after, n[i], passes);
+    c.found |= passes;
+  }
+  return c;
+}
+
+// How far along p + t d N passes T in a piece of length `step` that begins at p, `inside` telling
+// the side of p.
+static real pin_down(const Source* source, Real3 p, Real3 d, real step, float threshold,
+                     Crossing c) {
+  real t = c.piece * step;
+  for (int round = 1; round < ROUNDS; ++round) {
+    real n[STEPS];
+    step = step / (float)PIECES;
+    sum_along(source, along(p, d, t), d, step, n);
+    const Crossing finer = first_crossing(n, threshold, !c.enters);
+    // Where rounding shows none, it is at the end.
+    c.piece = select(REAL((float)(PIECES - 1)), finer.piece, finer.found);
+    c.before = select(n[PIECES - 1], finer.before, finer.found);
+    c.after = select(n[PIECES], finer.after, finer.found);
+    t = fma(c.piece, step, t);
+  }
+  const real rise = c.after - c.before;
+  const real share = select((threshold - c.before) / rise, REAL(0.5f), fabs(rise) < 1e-20f);
+  return fma(clamp(share, 0.0f, 1.0f), step, t);
+}
+
+// ---- Rays ----
+
+// Steps over the edge of a block, voxels.
+#define NUDGE 1e-3f
+// From a crossing that is not drawn to where the ray goes on.
+#define PAST_HIDDEN 1e-2f
+
+static real kept_from_zero(real d) { return select(d, REAL(1e-12f), fabs(d) < 1e-12f); }
+
+static int first_of(truth lanes) {
+  const Truths t = {.v = lanes};
+  int lane = 0;
+  while (lane < LANES - 1 && !t.lane[lane]) ++lane;
+  return lane;
+}
+
+// rays: an origin and a unit direction each. hits: the distance, infinite where there is none, and
+// the gradient of N, up to a positive factor.
+kernel void rays_closest(GRID_ARGUMENTS, global const Kernel* restrict kernels,
+                         global const uint* restrict first, global const uint* restrict list,
+                         float threshold, uint count, global const float* restrict rays,
+                         global float4* restrict hits) {
+  const uint first_ray = get_global_id(0) * LANES;
+  if (first_ray >= count) return;
+  const Grid grid = GRID;
+
+  Reals component[6];
+  for (int lane = 0; lane < LANES; ++lane) {
+    global const float* ray = rays + 6 * (size_t)min(first_ray + lane, count - 1);
+    for (int i = 0; i < 6; ++i) component[i].lane[lane] = ray[i];
+  }
+  Real3 o = {component[0].v, component[1].v, component[2].v};
+  const Real3 d = {kept_from_zero(component[3].v), kept_from_zero(component[4].v),
+                   kept_from_zero(component[5].v)};
+  const Real3 inverse = {1.0f / d.x, 1.0f / d.y, 1.0f / d.z};
+
+  // From here rays begin where they enter the grid, where floats are fine.
+  const Real3 to_low = {((float)(low.x * ROOT_EDGE) - o.x) * inverse.x,
+                        ((float)(low.y * ROOT_EDGE) - o.y) * inverse.y,
+                        ((float)(low.z * ROOT_EDGE) - o.z) * inverse.z};
+  const Real3 to_high = {((float)((low.x + size.x) * ROOT_EDGE) - o.x) * inverse.x,
+                         ((float)((low.y + size.y) * ROOT_EDGE) - o.y) * inverse.y,
+                         ((float)((low.z + size.z) * ROOT_EDGE) - o.z) * inverse.z};
+  const real entry = fmax(fmax(fmin(to_low.x, to_high.x), fmin(to_low.y, to_high.y)),
+                          fmax(fmin(to_low.z, to_high.z), REAL(0.0f)));
+  const real end =
+      fmin(fmin(fmax(to_low.x, to_high.x), fmax(to_low.y, to_high.y)), fmax(to_low.z, to_high.z)) -
+      entry;
+  o = along(o, d, entry);
+
+  truth active = end > 0.0f;
+  truth inside = FALSE;
+  truth begins = entry == 0.0f;  // in the grid: on which side is not known yet
+  real t = REAL(0.0f);
+  Reals distance = {.v = REAL(INFINITY)};
+  Reals gradient[3] = {{.v = REAL(0.0f)}, {.v = REAL(0.0f)}, {.v = REAL(0.0f)}};
+
+  while (ANY(active)) {
+    const real ahead = t + NUDGE;
+    const Real3 p = along(o, d, ahead);
+    const Reals px = {.v = p.x}, py = {.v = p.y}, pz = {.v = p.z};
+    const int leader = first_of(active);
+    const Block block = block_at(&grid, (int)floor(px.lane[leader]), (int)floor(py.lane[leader]),
+                                 (int)floor(pz.lane[leader]));
+    const float lx = (float)block.low[0], ly = (float)block.low[1], lz = (float)block.low[2];
+    const float edge = (float)block.edge;
+    truth here = active & (p.x >= lx) & (p.x < lx + edge) & (p.y >= ly) & (p.y < ly + edge) &
+                 (p.z >= lz) & (p.z < lz + edge);
+    const Real3 far = {select(REAL(lx), REAL(lx + edge), d.x > 0.0f),
+                       select(REAL(ly), REAL(ly + edge), d.y > 0.0f),
+                       select(REAL(lz), REAL(lz + edge), d.z > 0.0f)};
+    const real leaves =
+        fmin(fmin((far.x - o.x) * inverse.x, (far.y - o.y) * inverse.y), (far.z - o.z) * inverse.z);
+    const real exit = fmin(fmax(leaves, ahead), end);
+
+    if (block.content < 0) {
+      inside = select(inside, block.content == INSIDE ? TRUE : FALSE, here);
+    } else {
+      Source source = {
+          {block.low[0], block.low[1], block.low[2]}, kernels, list, 0, &grid, threshold};
+#ifndef SAMPLED
+      source.list = list + first[block.content];
+      source.count = first[block.content + 1] - first[block.content];
+#else
+      (void)first;
+#endif
+      const Real3 from = along((Real3){o.x - lx, o.y - ly, o.z - lz}, d, t);
+      const real step = fmax(exit - t, REAL(0.0f)) / (float)PIECES;
+      real n[STEPS];
+      sum_along(&source, from, d, step, n);
+      inside = select(inside, n[0] >= threshold, begins & here);
+      const Crossing crossing = first_crossing(n, threshold, inside);
+      const truth crossed = crossing.found & here;
+      inside = select(inside, n[PIECES] >= threshold, here & !crossed);
+      if (ANY(crossed)) {
+        const Reals way = {.v = pin_down(&source, from, d, step, threshold, crossing)};
+        const Real3 at = along(from, d, way.v);
+        const Reals x = {.v = at.x}, y = {.v = at.y}, z = {.v = at.z};
+        Truths drawn = {.v = crossed};
+        for (int lane = 0; lane < LANES; ++lane) {
+          if (!drawn.lane[lane]) continue;
+          const int cell = in_brick(clamp((int)x.lane[lane], 0, 7), clamp((int)y.lane[lane], 0, 7),
+                                    clamp((int)z.lane[lane], 0, 7));
+          if (is_hidden(&grid, block.content, cell)) drawn.lane[lane] = 0;
+        }
+        if (ANY(drawn.v)) {
+          const Real3 g = gradient_at(&source, at);
+          distance.v = select(distance.v, entry + t + way.v, drawn.v);
+          gradient[0].v = select(gradient[0].v, g.x, drawn.v);
+          gradient[1].v = select(gradient[1].v, g.y, drawn.v);
+          gradient[2].v = select(gradient[2].v, g.z, drawn.v);
+          active &= !drawn.v;
+        }
+        // What is not drawn is passed.
+        const truth passed = crossed & !drawn.v;
+        inside = select(inside, crossing.enters, passed);
+        t = select(t, t + way.v + PAST_HIDDEN, passed);
+        here &= !crossed;
+        active &= !(passed & (t >= end));
+        begins &= !passed;
+      }
+    }
+    begins &= !here;
+    t = select(t, exit, here);
+    active &= !(here & (t >= end));
+  }
+
+  for (int lane = 0; lane < LANES; ++lane) {
+    if (first_ray + lane >= count) return;
+    hits[first_ray + lane] = (float4)(distance.lane[lane], gradient[0].lane[lane],
+                                      gradient[1].lane[lane], gradient[2].lane[lane]);
+  }
+}
+
+// ---- Light ----
+
+// Whether a ray meets a place inside within `reach`: at points a voxel apart, N from the samples. A
+// work-item per ray.
+kernel void rays_occluded(GRID_ARGUMENTS, float threshold, float reach, uint count,
+                          global const float* restrict rays, global uchar* restrict answers) {
+  const uint i = get_global_id(0);
+  if (i >= count) return;
+  const Grid grid = GRID;
+  global const float* ray = rays + 6 * (size_t)i;
+  float o[3], d[3], inverse[3];
+  float t = 0.0f, end = reach;
+  const int first_root[3] = {low.x, low.y, low.z}, roots_along[3] = {size.x, size.y, size.z};
+  for (int a = 0; a < 3; ++a) {
+    o[a] = ray[a];
+    d[a] = fabs(ray[a + 3]) < 1e-12f ? 1e-12f : ray[a + 3];
+    inverse[a] = 1.0f / d[a];
+    const float to_low = ((float)(first_root[a] * ROOT_EDGE) - o[a]) * inverse[a];
+    const float to_high =
+        ((float)((first_root[a] + roots_along[a]) * ROOT_EDGE) - o[a]) * inverse[a];
+    t = fmax(t, fmin(to_low, to_high));
+    end = fmin(end, fmax(to_low, to_high));
+  }
+  int met = 0;
+  while (t < end && !met) {
+    const float x = fma(t, d[0], o[0]), y = fma(t, d[1], o[1]), z = fma(t, d[2], o[2]);
+    const int cx = (int)floor(x), cy = (int)floor(y), cz = (int)floor(z);
+    const Block block = block_at(&grid, cx, cy, cz);
+    if (block.content >= 0) {
+      met = !is_hidden(&grid, block.content, in_brick(cx, cy, cz)) &&
+            sampled_density(&grid, threshold, x, y, z) >= threshold;
+      t += 1.0f;
+    } else {
+      met = block.content == INSIDE;
+      float leaves = INFINITY;
+      for (int a = 0; a < 3; ++a) {
+        const float far = (float)(block.low[a] + (d[a] > 0.0f ? block.edge : 0));
+        leaves = fmin(leaves, (far - o[a]) * inverse[a]);
+      }
+      t = fmax(leaves, t) + NUDGE;
+    }
+  }
+  answers[i] = met ? 1 : 0;
+}
+
+// Where the surroundings are looked at: a direction in the tangent frame, the normal last, and how
+// far. Along the normal, around it at 35 degrees and at 65.
+#define OPENNESS_POINTS 12
+constant float4 openness_ways[OPENNESS_POINTS] = {
+    (float4)(0.0000f, 0.0000f, 1.0000f, 0.5000f),   (float4)(0.0000f, 0.0000f, 1.0000f, 1.0000f),
+    (float4)(0.4056f, 0.4056f, 0.8192f, 0.6500f),   (float4)(-0.4056f, 0.4056f, 0.8192f, 1.0000f),
+    (float4)(-0.4056f, -0.4056f, 0.8192f, 0.6500f), (float4)(0.4056f, -0.4056f, 0.8192f, 1.0000f),
+    (float4)(0.9063f, 0.0000f, 0.4226f, 0.4000f),   (float4)(0.4532f, 0.7849f, 0.4226f, 0.9000f),
+    (float4)(-0.4532f, 0.7849f, 0.4226f, 0.4000f),  (float4)(-0.9063f, 0.0000f, 0.4226f, 0.9000f),
+    (float4)(-0.4532f, -0.7849f, 0.4226f, 0.4000f), (float4)(0.4532f, -0.7849f, 0.4226f, 0.9000f)};
+
+// Ambient occlusion from the density: how much of the surroundings of a point, in the half space of
+// its normal, is not inside: 1 - the mean of saturate((N - T) / T). A work-item per point.
+// points: a position and a unit normal each. reach: of the surroundings, voxels.
+kernel void openness(GRID_ARGUMENTS, float threshold, float reach, uint count,
+                     global const float* restrict points, global float* restrict open) {
+  const uint i = get_global_id(0);
+  if (i >= count) return;
+  const Grid grid = GRID;
+  global const float* p = points + 6 * (size_t)i;
+  const float3 at = (float3)(p[0], p[1], p[2]), n = (float3)(p[3], p[4], p[5]);
+  // Source: T. Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 6(1), 2017.
+  const float side = copysign(1.0f, n.z);
+  const float a = -1.0f / (side + n.z), b = n.x * n.y * a;
+  const float3 u = (float3)(1.0f + side * n.x * n.x * a, side * b, -side * n.x);
+  const float3 v = (float3)(b, side + n.y * n.y * a, -n.y);
+  float shut = 0.0f;
+  for (int s = 0; s < OPENNESS_POINTS; ++s) {
+    const float4 way = openness_ways[s];
+    const float3 q = at + (u * way.x + v * way.y + n * way.z) * (way.w * reach);
+    const float above = sampled_density(&grid, threshold, q.x, q.y, q.z) - threshold;
+    shut += clamp(above / threshold, 0.0f, 1.0f);
+  }
+  open[i] = 1.0f - shut / OPENNESS_POINTS;
+}

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include "density/brick_grid.h"
+#include "density/descent.h"
+#include "density/kernel_set.h"
+#include "leafhull/device.h"
+
+namespace leafhull {
+
+/// A place and a unit direction there, voxels from the lattice's anchor, as the device reads it.
+struct VoxelRay {
+  Vec3f origin, direction;
+};
+static_assert(sizeof(VoxelRay) == 24);
+
+/// Where a ray meets the surface.
+struct VoxelHit {
+  float distance;  ///< voxels; infinite where it does not
+  Vec3f gradient;  ///< of N, up to a positive factor
+};
+static_assert(sizeof(VoxelHit) == 16);
+
+/// Rays against the surface N = T on a device, no polygons. Every call returns when its results are
+/// there; a result depends on its ray alone.
+class RayCaster {
+ public:
+  /// N comes from the kernels near each brick: `lists` has the bricks of the grid in their order.
+  /// All must outlive the caster. @throws Error device, as all calls do.
+  RayCaster(Device& device, const BrickGrid& grid, double threshold, const KernelSet& kernels,
+            const BrickList& lists, int falloff);
+  /// N comes from the samples alone.
+  RayCaster(Device& device, const BrickGrid& grid, double threshold);
+  ~RayCaster();
+  RayCaster(RayCaster&&) noexcept;
+
+  /// The nearest crossing of N = T that is drawn, from either side, within 0.02 voxels. Rays that
+  /// follow each other should be neighbours: a CPU takes sixteen together.
+  void closest(std::span<const VoxelRay> rays, std::span<VoxelHit> hits);
+
+  /// 1 where a ray meets a place inside within `reach` voxels, N taken from the samples; else 0.
+  void occluded(std::span<const VoxelRay> rays, float reach, std::span<std::uint8_t> answers);
+
+  /// How much of the surroundings within `reach` voxels of each point, on the side of its
+  /// `direction`, is open: 1 - the mean of saturate((N - T) / T) over twelve places.
+  void openness(std::span<const VoxelRay> points, float reach, std::span<float> open);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace leafhull
