@@ -28,8 +28,11 @@ ROOMS = {
     "study": ((), ()),
     "page": (("chart", "output", "study", "text"), ("json", "meshoptimizer", "mustache")),
     "picture": (
-        ("density", "device", "output", "pipeline", "process", "render", "surface", "watercolour"),
-        ("json",),
+        (
+            "density", "device", "leaves", "output", "pipeline", "process", "render", "surface",
+            "watercolour",
+        ),
+        ("tbb",),
     ),
     "cli": ((), ("cli11", "json")),
     "bench": (

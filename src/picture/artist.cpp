@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "picture/artist.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "picture/parts.h"
+#include "pipeline/stopwatch.h"
+#include "pipeline/thread_limit.h"
+#include "render/draw_buffers.h"
+#include "render/exr.h"
+#include "render/shade.h"
+#include "watercolour/style.h"
+
+namespace leafhull {
+namespace {
+
+constexpr float kMargin = 0.06f;
+constexpr double kTurn = 360;
+
+render::Viewpoint viewpoint(Viewpoint named) {
+  constexpr render::Viewpoint kViewpoints[] = {render::kFront, render::kThreeQuarter, render::kTop};
+  return kViewpoints[static_cast<std::size_t>(named)];
+}
+
+/// Along the longer side of a picture, degrees; `angle` is along its height.
+double longer_angle(double angle, double aspect) {
+  constexpr double kHalfDegree = std::numbers::pi / 360;
+  return std::atan(std::tan(angle * kHalfDegree) * std::max(1.0, aspect)) / kHalfDegree;
+}
+
+render::Camera camera_at(const View& view, const render::Placement& placement, float aspect) {
+  const auto in_scene = [&](Vec3d p) { return (p - placement.origin) * placement.scale; };
+  return render::look_at(in_scene(view.eye), in_scene(view.target), view.up,
+                         longer_angle(view.angle, static_cast<double>(aspect)), aspect);
+}
+
+}  // namespace
+
+render::Camera camera_of(const Subject::Parts& parts, const PictureOptions& options) {
+  const float aspect = static_cast<float>(options.width) / static_cast<float>(options.height);
+  const double degrees = kTurn * options.turn;
+  if (const View* view = std::get_if<View>(&options.camera)) {
+    const render::Camera camera = camera_at(*view, parts.placement, aspect);
+    // The middle of the subject is the scene's origin.
+    return options.turntable ? render::Turntable{camera, {}}.at(degrees) : camera;
+  }
+  const render::Viewpoint from = viewpoint(std::get<Viewpoint>(options.camera));
+  return options.turntable
+             ? render::turntable(parts.points, aspect, kMargin, parts.reach, from).at(degrees)
+             : render::frame(parts.points, aspect, kMargin, parts.reach, from);
+}
+
+std::vector<watercolour::Stroke> strokes_of(const Subject::Parts& parts,
+                                            const render::Camera& camera, int width, int height) {
+  const auto across = static_cast<float>(width), down = static_cast<float>(height);
+  const auto depth = [&](Vec3f p) { return dot(p - camera.eye, camera.forward); };
+  const auto project = [&](Vec3f p) {
+    const Vec3f from_eye = p - camera.eye;
+    const float x = dot(from_eye, camera.right) / (depth(p) * camera.tan_x);
+    const float y = dot(from_eye, camera.up) / (depth(p) * camera.tan_y);
+    return Vec2f{(1 + x) / 2 * across, (1 - y) / 2 * down};
+  };
+  std::vector<watercolour::Stroke> strokes;
+  for (const LeafCard& leaf : parts.leaves) {
+    const Vec3f major = leaf.centre + leaf.half_major, minor = leaf.centre + leaf.half_minor;
+    if (!(std::min({depth(leaf.centre), depth(major), depth(minor)}) > 0)) continue;
+    const Vec2f centre = project(leaf.centre), u = project(major), v = project(minor);
+    strokes.push_back({.centre = centre,
+                       .half_major = {u.x - centre.x, u.y - centre.y},
+                       .half_minor = {v.x - centre.x, v.y - centre.y},
+                       .depth = depth(leaf.centre),
+                       .leaf = leaf.leaf});
+  }
+  return strokes;
+}
+
+Picture Artist::shade(const Subject::Parts& parts, const render::Buffers& buffers,
+                      const render::Camera& camera, const PictureOptions& options) {
+  switch (options.look) {
+    case Look::normals:
+      return render::shade_normals(buffers, camera);
+    case Look::depth:
+      return render::shade_depth(buffers);
+    case Look::watercolour: {
+      if (!painter_) painter_.emplace(device_);
+      const WatercolourStyle style =
+          options.style ? options.style
+                        : read_watercolour_style(std::string(watercolour_styles().front()));
+      const auto strokes = strokes_of(parts, camera, options.width, options.height);
+      return painter_->paint(buffers, strokes, *style);
+    }
+    case Look::phong:
+      break;
+  }
+  return render::shade_phong(buffers);
+}
+
+Rendering Artist::draw(const Subject& subject, const PictureOptions& options) {
+  const ThreadLimit limit(device_);
+  const Progress untold;
+  Stopwatch watch(untold);
+  const Subject::Parts& parts = subject.parts();
+  Rendering rendering;
+  watch.start("rays");
+  const render::Camera camera = camera_of(parts, options);
+  const auto buffers = std::make_shared<const render::Buffers>(render::draw_buffers(
+      parts.targets, parts.surroundings(), camera, options.width, options.height));
+  watch.start("paint");
+  rendering.picture = shade(parts, *buffers, camera, options);
+  rendering.blank = std::ranges::all_of(
+      buffers->object, [](render::Object object) { return object == render::Object::paper; });
+  rendering.buffers = buffers;
+  rendering.seconds = watch.finish();
+  rendering.seconds.pop_back();  // the total
+  return rendering;
+}
+
+Rendering draw(const Subject& subject, const PictureOptions& options, Device& device) {
+  check_picture(options, &device.info());
+  return Artist(device).draw(subject, options);
+}
+
+std::vector<std::uint8_t> encode_exr(const Rendering& rendering) {
+  return render::encode_exr(*rendering.buffers, rendering.picture);
+}
+
+}  // namespace leafhull

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "leafhull/render.h"
+#include "render/camera.h"
+#include "watercolour/paint.h"
+
+namespace leafhull {
+
+/// Draws pictures one after the other, and keeps what they share.
+class Artist {
+ public:
+  /// Must outlive it.
+  explicit Artist(Device& device) : device_(device) {}
+
+  /// As draw(), of options that are checked.
+  Rendering draw(const Subject& subject, const PictureOptions& options);
+
+ private:
+  Picture shade(const Subject::Parts& parts, const render::Buffers& buffers,
+                const render::Camera& camera, const PictureOptions& options);
+
+  Device& device_;
+  std::optional<watercolour::Painter> painter_;
+};
+
+/// Where a picture is taken from, in the subject's scene.
+render::Camera camera_of(const Subject::Parts& parts, const PictureOptions& options);
+
+/// The leaves before the camera, nearest or not.
+std::vector<watercolour::Stroke> strokes_of(const Subject::Parts& parts,
+                                            const render::Camera& camera, int width, int height);
+
+}  // namespace leafhull

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <string>
+
+#include "leafhull/error.h"
+#include "leafhull/render.h"
+#include "pipeline/memory.h"
+
+namespace leafhull {
+namespace {
+
+// Measured at 2048x2048 and 4096x4096: what pixels see, the picture and its file; the planes that
+// watercolour's passes keep on the device.
+constexpr double kHostBytes = 160, kPaintBytes = 160;
+
+std::string size_text(int width, int height) {
+  return std::to_string(width) + "x" + std::to_string(height);
+}
+
+/// @throws Error usage where `bytes` for each pixel are more than there are.
+void check_memory(const PictureOptions& options, double bytes, double available,
+                  const std::string& of) {
+  const double needed = bytes * options.width * options.height;
+  if (needed <= available) return;
+  constexpr double kGiB = 1 << 30;
+  constexpr double kToSpare = 0.98;  // what is available changes from run to run
+  const double shrink = std::sqrt(kToSpare * available / needed);
+  const auto side = [&](int full) { return std::max(1, static_cast<int>(full * shrink)); };
+  const std::string largest = size_text(side(options.width), side(options.height));
+  char text[160];
+  std::snprintf(text, sizeof text, " pixels needs about %.3g GiB, and %.3g GiB%s are available",
+                needed / kGiB, available / kGiB, of.c_str());
+  throw Error(
+      ErrorCode::usage, "a picture of " + size_text(options.width, options.height) + text,
+      "The largest of this shape that fits is about " + largest + " (--size " + largest + ").");
+}
+
+}  // namespace
+
+void check_picture(const PictureOptions& options, const DeviceInfo* device) {
+  const int least = std::min(options.width, options.height);
+  const int most = std::max(options.width, options.height);
+  if (least < 1 || most > kLargestSide) {
+    throw Error(
+        ErrorCode::usage,
+        "a picture of " + size_text(options.width, options.height) + " pixels is out of range",
+        "Give 1 to " + std::to_string(kLargestSide) + " pixels along each side.");
+  }
+  const bool paints = options.look == Look::watercolour && device;
+  const bool shared = device && device->type == "CPU";
+  const auto host = static_cast<double>(available_memory());
+  check_memory(options, kHostBytes + (paints && shared ? kPaintBytes : 0), host, "");
+  if (!paints || shared) return;
+  check_memory(options, kPaintBytes, static_cast<double>(device->memory_bytes),
+               " of the device's memory");
+}
+
+}  // namespace leafhull

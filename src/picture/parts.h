@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "leafhull/render.h"
+#include "picture/density_target.h"
+#include "render/embree.h"
+#include "render/mesh_target.h"
+#include "render/scene.h"
+#include "render/surface.h"
+
+namespace leafhull {
+
+/// A leaf for brush strokes, in the scene.
+struct LeafCard {
+  Vec3f centre, half_major, half_minor;
+  std::uint32_t leaf = 0;
+};
+
+/// Everything in its scene; what refers to each other stays together.
+struct Subject::Parts {
+  Report report;
+  render::Placement placement;
+  std::vector<Vec3f> points;  ///< what named viewpoints hold, each with `reach` around it
+  float reach = 0;
+  std::vector<LeafCard> leaves;  ///< by their number
+
+  std::shared_ptr<const TreeModel> model;  ///< of wood, or of a shape
+  Mesh mesh;                               ///< of the foliage, where it is drawn so
+  render::DeviceHandle embree;
+  std::optional<render::Scene> scene;  ///< all that is triangles
+  std::optional<render::MeshTarget> triangles;
+  std::optional<DensityTarget> density;
+  std::vector<const render::Target*> targets;
+  std::optional<render::MeshSurroundings> mesh_surroundings;
+
+  const render::Surroundings& surroundings() const {
+    if (density) return *density;
+    return *mesh_surroundings;
+  }
+};
+
+}  // namespace leafhull

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "watercolour/style.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <system_error>
+
+#include "leafhull/error.h"
+#include "leafhull/render.h"
+
+namespace leafhull {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string read_text(const fs::path& file) {
+  constexpr const char* kRemedy = "Give the path of a .json style that you may read.";
+  std::error_code missing;
+  if (fs::is_directory(file, missing)) {
+    throw Error(ErrorCode::input, file.string() + ": cannot be read: it is a folder", kRemedy);
+  }
+  errno = 0;
+  std::ifstream stream(file, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(stream), {}};
+  if (!stream) {
+    const std::string reason = std::generic_category().message(errno);
+    throw Error(ErrorCode::input, file.string() + ": cannot be read: " + reason, kRemedy);
+  }
+  return text;
+}
+
+}  // namespace
+
+std::span<const std::string_view> watercolour_styles() { return watercolour::style_names(); }
+
+WatercolourStyle read_watercolour_style(const std::string& name_or_file,
+                                        std::optional<double> detail) {
+  const auto shipped = watercolour::style_names();
+  const fs::path file(name_or_file);
+  const bool is_file = std::ranges::find(shipped, name_or_file) == shipped.end() &&
+                       (file.has_extension() || file.has_parent_path() || fs::exists(file));
+  watercolour::Style style = is_file ? watercolour::parse_style(read_text(file), file.string())
+                                     : watercolour::shipped_style(name_or_file);
+  if (detail) style.detail = static_cast<float>(*detail);
+  return std::make_shared<const watercolour::Style>(style);
+}
+
+}  // namespace leafhull

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: Apache-2.0
+// Trees, shapes and densities as what rays are cast against.
+#include <algorithm>
+#include <array>
+#include <string>
+#include <utility>
+
+#include "leafhull/error.h"
+#include "leafhull/render.h"
+#include "leaves/selection.h"
+#include "picture/parts.h"
+#include "pipeline/finish_mesh.h"
+#include "pipeline/thread_limit.h"
+#include "render/light.h"
+#include "surface/extent.h"
+#include "surface/polygonise.h"
+#include "surface/read_field.h"
+
+namespace leafhull {
+namespace {
+
+using Parts = Subject::Parts;
+using Surfaces = std::vector<std::shared_ptr<const render::Surface>>;
+
+constexpr std::string_view kShapeName = "abstract shape";
+
+Box box_of(const Frame& frame) {
+  Box box;
+  for (const Vec3d p : frame.points) box.include(p);
+  const Vec3d reach{frame.reach, frame.reach, frame.reach};
+  return {box.low - reach, box.high + reach};
+}
+
+/// Gives the parts their place in a scene about 1 large.
+void place(const Frame& frame, Parts& parts) {
+  const Box box = box_of(frame);
+  if (!(box.longest_side() > 0)) {
+    throw Error(ErrorCode::input, "what is to be drawn has no extent", "Repair the model.");
+  }
+  parts.placement = {(box.low + box.high) / 2, 1 / box.longest_side()};
+  parts.points.reserve(frame.points.size());
+  for (const Vec3d p : frame.points) parts.points.push_back(parts.placement(p));
+  parts.reach = static_cast<float>(frame.reach * parts.placement.scale);
+}
+
+/// The last step: what rays meet.
+Subject finish(std::shared_ptr<Parts> parts, const Surfaces& surfaces) {
+  if (!surfaces.empty()) {
+    parts->scene.emplace(parts->embree.get(), surfaces);
+    parts->triangles.emplace(*parts->scene);
+    parts->targets.push_back(&*parts->triangles);
+  }
+  if (parts->density) {
+    parts->targets.push_back(&*parts->density);
+  } else {
+    parts->mesh_surroundings.emplace(parts->targets);
+  }
+  return Subject(std::move(parts));
+}
+
+/// All of a tree that is no leaf.
+std::vector<const Instance*> wood_of(const TreeModel& tree, const LeafOptions& options) {
+  std::vector<std::string> warnings;  // find_leaves has told them
+  std::vector<bool> is_leaf(tree.instances.size());
+  for (const std::uint32_t leaf : select_leaves(tree, options, warnings)) is_leaf[leaf] = true;
+  std::vector<const Instance*> wood;
+  for (std::size_t i = 0; i < tree.instances.size(); ++i) {
+    const Instance& instance = tree.instances[i];
+    if (!is_leaf[i] && !tree.primitives[instance.primitive].triangles.empty()) {
+      wood.push_back(&instance);
+    }
+  }
+  return wood;
+}
+
+/// One for each leaf, in the middle of its vertices.
+std::vector<LeafCard> cards_of(const LeafSet& leaves, const render::Placement& placement) {
+  struct Sum {
+    Vec3d positions;
+    double count = 0;
+    const LeafVertex* first = nullptr;
+  };
+  std::vector<Sum> sums(leaves.leaf_count);
+  for (const LeafVertex& vertex : leaves.vertices) {
+    Sum& sum = sums[vertex.leaf];
+    if (!sum.first) sum.first = &vertex;
+    sum.positions = sum.positions + vertex.position;
+    ++sum.count;
+  }
+  const auto scale = static_cast<float>(placement.scale);
+  std::vector<LeafCard> cards;
+  for (std::size_t leaf = 0; leaf < sums.size(); ++leaf) {
+    const auto& [positions, count, first] = sums[leaf];
+    if (!first) continue;
+    cards.push_back({placement(positions / count), first->major * (first->radius_major * scale),
+                     cross(first->normal, first->major) * (first->radius_minor * scale),
+                     static_cast<std::uint32_t>(leaf)});
+  }
+  return cards;
+}
+
+}  // namespace
+
+const Report& Subject::report() const { return parts_->report; }
+
+Subject tree_subject(std::shared_ptr<const TreeModel> tree, const LeafSet& leaves,
+                     const Options& options, Surfacing surfacing, Device& device,
+                     const Progress& progress, const Frame& frame) {
+  const ThreadLimit limit(device);
+  const auto parts = std::make_shared<Parts>();
+  parts->model = std::move(tree);
+  std::shared_ptr<const DirectSurface> direct;
+  if (surfacing == Surfacing::direct) {
+    direct = std::make_shared<const DirectSurface>(leaves, options, device, progress);
+    parts->report = direct->report();
+  } else {
+    Shape shape = extract(leaves, options, device, progress);
+    parts->mesh = std::move(shape.mesh);
+    parts->report = std::move(shape.report);
+  }
+
+  const std::vector<const Instance*> wood = wood_of(*parts->model, options.leaf_options());
+  Frame all = frame;
+  if (all.points.empty()) {
+    all = frame_of(leaves, parts->report.radius_max_model);
+    for (const Instance* instance : wood) {
+      const std::vector<Vec3d> points = render::world_positions(*parts->model, *instance);
+      all.points.insert(all.points.end(), points.begin(), points.end());
+    }
+  }
+  place(all, *parts);
+  parts->leaves = cards_of(leaves, parts->placement);
+
+  parts->embree = render::open_embree();
+  Surfaces surfaces;
+  for (const Instance* instance : wood) {
+    surfaces.push_back(render::make_surface(parts->embree.get(), *parts->model, *instance,
+                                            render::Look::wood, parts->placement));
+  }
+  if (direct) {
+    parts->density.emplace(std::move(direct), parts->placement, render::kShapeGreen);
+  } else {
+    surfaces.push_back(render::make_surface(parts->embree.get(), parts->mesh, parts->placement));
+  }
+  return finish(parts, surfaces);
+}
+
+Subject shape_subject(std::shared_ptr<const TreeModel> shape) {
+  const auto parts = std::make_shared<Parts>();
+  parts->model = std::move(shape);
+  Frame frame;
+  for (const Instance& instance : parts->model->instances) {
+    const std::vector<Vec3d> points = render::world_positions(*parts->model, instance);
+    frame.points.insert(frame.points.end(), points.begin(), points.end());
+  }
+  place(frame, *parts);
+  parts->embree = render::open_embree();
+  Surfaces surfaces;
+  for (const Instance& instance : parts->model->instances) {
+    if (parts->model->primitives[instance.primitive].triangles.empty()) continue;
+    surfaces.push_back(render::make_surface(parts->embree.get(), *parts->model, instance,
+                                            render::Look::shape, parts->placement));
+  }
+  return finish(parts, surfaces);
+}
+
+bool is_shape(const TreeModel& file) {
+  return std::ranges::all_of(file.instances, [&](const Instance& instance) {
+    const Primitive& primitive = file.primitives[instance.primitive];
+    const bool bare = primitive.mesh_name.empty() && instance.node_name.empty() &&
+                      (primitive.material < 0 || file.materials[primitive.material].name.empty());
+    return bare || primitive.mesh_name == kShapeName;
+  });
+}
+
+Subject field_subject(const std::filesystem::path& file, std::optional<double> threshold,
+                      Surfacing surfacing, Device& device, const Progress& progress) {
+  const ThreadLimit limit(device);
+  const auto parts = std::make_shared<Parts>();
+  if (progress) progress("read", 0);
+  auto [read, origin] = read_field(file, threshold);
+  const auto field = std::make_shared<const Field>(std::move(read));
+  parts->report.threshold = field->threshold();
+  parts->report.voxel_size = field->lattice().voxel_size;
+  Frame frame{extent_of(*field), field->lattice().voxel_size};
+  place(frame, *parts);
+  parts->embree = render::open_embree();
+  Surfaces surfaces;
+  if (surfacing == Surfacing::direct) {
+    parts->density.emplace(std::make_shared<const DirectSurface>(field, device), parts->placement,
+                           render::kShapeGreen);
+  } else {
+    if (progress) progress("polygonise", 0);
+    parts->mesh = lattice_mesh(polygonise(*field, 0), field->lattice());
+    surfaces.push_back(render::make_surface(parts->embree.get(), parts->mesh, parts->placement));
+  }
+  parts->placement.origin = parts->placement.origin + origin;  // for cameras in model units
+  return finish(parts, surfaces);
+}
+
+}  // namespace leafhull

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <string>
+
+#include "leafhull/error.h"
+#include "leafhull/output.h"
+#include "leafhull/render.h"
+#include "picture/artist.h"
+#include "picture/files.h"
+#include "picture/film.h"
+#include "pipeline/stopwatch.h"
+
+namespace leafhull {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A turn takes six seconds where it has the frames for it.
+double frames_per_second(int frames) { return std::clamp(frames / 6.0, 12.0, 30.0); }
+
+void write_bytes(const fs::path& file, const std::vector<std::uint8_t>& bytes) {
+  write_file(file, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+}
+
+/// The films of a turntable. One that nobody asked for by name may fail, which is a warning.
+class Films {
+ public:
+  Films(const FilePlan& plan, const PictureOptions& options, int frames,
+        std::vector<std::string>& warnings)
+      : asked_for_(plan.film_was_asked_for), warnings_(warnings) {
+    for (const fs::path& file : plan.films) {
+      attempt([&] {
+        films_.push_back(
+            std::make_unique<Film>(file, options.width, options.height, frames_per_second(frames)));
+      });
+    }
+    if (plan.film_is_missing) {
+      warnings_.emplace_back("frames are written, and no film: ffmpeg is not on the PATH");
+    }
+  }
+
+  void add(const Picture& frame) {
+    attempt([&] {
+      for (const auto& film : films_) film->add(frame);
+    });
+  }
+
+  /// Whether there are any.
+  bool finish() {
+    attempt([&] {
+      for (const auto& film : films_) film->finish();
+    });
+    return !films_.empty();
+  }
+
+ private:
+  template <class Work>
+  void attempt(Work&& work) {
+    try {
+      work();
+    } catch (const Error& error) {
+      if (asked_for_) throw;
+      warnings_.emplace_back(std::string("frames are written, and no film: ") + error.what());
+      films_.clear();
+    }
+  }
+
+  bool asked_for_;
+  std::vector<std::string>& warnings_;
+  std::vector<std::unique_ptr<Film>> films_;
+};
+
+/// Frames of an earlier, longer turntable would be taken for this one's.
+void warn_of_older_frames(const FilePlan& plan, int frames, std::vector<std::string>& warnings) {
+  for (const auto* pictures : {&plan.png, &plan.exr}) {
+    for (const fs::path& file : *pictures) {
+      const fs::path next = numbered(file, frames + 1);
+      std::error_code unreadable;
+      if (!fs::exists(next, unreadable)) continue;
+      warnings.push_back(next.string() + " is there from before, and not of this turntable");
+    }
+  }
+}
+
+std::vector<fs::path> first_files(const FilePlan& plan, int frames, bool with_films) {
+  std::vector<fs::path> files;
+  for (const auto* pictures : {&plan.png, &plan.exr}) {
+    for (const fs::path& file : *pictures) {
+      files.push_back(frames > 0 ? numbered(file, 1) : file);
+    }
+  }
+  if (with_films) files.insert(files.end(), plan.films.begin(), plan.films.end());
+  return files;
+}
+
+void add_times(std::vector<StageTime>& sums, const std::vector<StageTime>& times) {
+  for (const auto& [stage, seconds] : times) {
+    const auto sum =
+        std::ranges::find_if(sums, [&](const StageTime& other) { return other.stage == stage; });
+    if (sum == sums.end()) {
+      sums.push_back({stage, seconds});
+    } else {
+      sum->seconds += seconds;
+    }
+  }
+}
+
+}  // namespace
+
+PictureSummary write_pictures(const Subject& subject, const PictureOptions& asked,
+                              const PictureFiles& files, Device& device, const Progress& progress) {
+  const FilePlan plan = plan_files(files);
+  PictureOptions options = asked;
+  check_picture(options, &device.info());
+  PictureSummary summary;
+  Films films(plan, options, files.frames, summary.warnings);
+  Artist artist(device);
+  const int pictures = std::max(files.frames, 1);
+  options.turntable = files.frames > 0;
+  const Progress untold;
+  for (int i = 0; i < pictures; ++i) {
+    const double done = static_cast<double>(i) / pictures;
+    options.turn = done;
+    if (progress) progress("draw", done);
+    const Rendering rendering = artist.draw(subject, options);
+    summary.blank += rendering.blank;
+    add_times(summary.seconds, rendering.seconds);
+
+    if (progress) progress("write", done);
+    Stopwatch watch(untold);
+    watch.start("write");
+    const auto name = [&](const fs::path& file) {
+      return files.frames > 0 ? numbered(file, i + 1) : file;
+    };
+    if (!plan.png.empty()) {
+      const std::vector<std::uint8_t> png = encode_png(rendering.picture);
+      for (const fs::path& file : plan.png) write_bytes(name(file), png);
+    }
+    if (!plan.exr.empty()) {
+      const std::vector<std::uint8_t> exr = encode_exr(rendering);
+      for (const fs::path& file : plan.exr) write_bytes(name(file), exr);
+    }
+    films.add(rendering.picture);
+    add_times(summary.seconds, watch.finish());
+  }
+  const bool with_films = films.finish();
+  if (progress) progress("write", 1);
+  if (files.frames > 0) warn_of_older_frames(plan, files.frames, summary.warnings);
+  if (summary.blank > 0) {
+    summary.warnings.push_back(pictures == 1
+                                   ? "nothing is in view: the picture is white paper"
+                                   : "nothing is in view in " + std::to_string(summary.blank) +
+                                         " of " + std::to_string(pictures) + " frames");
+  }
+  summary.files = first_files(plan, files.frames, with_films);
+  return summary;
+}
+
+}  // namespace leafhull
