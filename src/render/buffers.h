@@ -33,9 +33,9 @@ struct Buffers {
   std::vector<Vec3f> color;          ///< of the surface, linear
   std::vector<float> key;            ///< of the key light what arrives, 0 in shadow to 1
   std::vector<float> open;  ///< of the sky what arrives, 0..1: ambient occlusion is 1 - open
-  static constexpr int kEdgeRays = 8;
   std::vector<std::uint32_t> edges;  ///< the pixels where surfaces end, each once
-  std::vector<EdgeSample> samples;   ///< kEdgeRays for each edge, in the order of `edges`
+  int edge_rays = 0;                 ///< of an edge, beside the one through its centre
+  std::vector<EdgeSample> samples;   ///< edge_rays for each edge, in the order of `edges`
   Vec3f to_light;                    ///< unit, towards the key light
   Vec3f to_eye;                      ///< unit, against the camera's axis
 

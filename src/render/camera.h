@@ -4,10 +4,11 @@
 #include <span>
 
 #include "leafhull/vec.h"
+#include "render/placement.h"
 
 namespace leafhull::render {
 
-/// A pinhole camera with a long lens, slightly above the tree.
+/// A pinhole camera.
 struct Camera {
   Vec3f eye, right, up, forward;
   float tan_x, tan_y;  ///< of half the angle of view
@@ -18,8 +19,37 @@ struct Camera {
   }
 };
 
-/// The camera whose picture of `aspect` (width / height) holds balls of radius `reach` around
-/// `points` with `margin`, a part of the picture's width and height, on each side.
-Camera frame(std::span<const Vec3f> points, float aspect, float margin = 0.06f, float reach = 0);
+/// Where a camera stands as seen from its subject, degrees.
+struct Viewpoint {
+  float azimuth;    ///< about the vertical from +z towards +x
+  float elevation;  ///< above the horizon
+};
+inline constexpr Viewpoint kFront{0, 0}, kThreeQuarter{32, 9}, kTop{0, 90};
+
+/// The camera with a long lens whose picture of `aspect` (width / height) holds balls of radius
+/// `reach` around `points` with `margin`, a part of the picture's width and height, on each side.
+Camera frame(std::span<const Vec3f> points, float aspect, float margin = 0.06f, float reach = 0,
+             Viewpoint viewpoint = kThreeQuarter);
+
+/// A camera that stands still before a subject on a turning table.
+struct Turntable {
+  Camera camera;
+  Vec3f axis;  ///< a point of the vertical axis
+
+  /// The camera after it went `degrees` about the axis, from +z towards +x.
+  Camera at(double degrees) const;
+};
+
+/// Turns about the middle of the points' box; the picture holds them at every angle, as `frame`
+/// does.
+Turntable turntable(std::span<const Vec3f> points, float aspect, float margin = 0.06f,
+                    float reach = 0, Viewpoint viewpoint = kThreeQuarter);
+
+/// The camera at `eye` that looks at `target`, both in model space.
+/// @param up what is up in the picture; need not be orthogonal
+/// @param angle_of_view along the picture's longer side, degrees, between 0 and 180
+/// @throws Error usage: eye and target are one point, up lies along the view, or the angle is none
+Camera look_at(Vec3d eye, Vec3d target, Vec3d up, double angle_of_view, float aspect,
+               const Placement& placement = {});
 
 }  // namespace leafhull::render

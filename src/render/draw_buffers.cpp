@@ -22,7 +22,6 @@ constexpr int kTile = 4;  // pixels of a square of kTile x kTile look in differe
 constexpr int kTurns = Surroundings::kTurns;
 static_assert(kTile * kTile == kTurns);
 constexpr std::size_t kBatch = 1 << 16;  // rays
-constexpr std::uint32_t kEdgeRays = Buffers::kEdgeRays;
 
 /// How much of the light arrives at a point, 0..1.
 struct Light {
@@ -32,8 +31,8 @@ struct Light {
 /// A place of a surface.
 struct Point {
   Object object;
-  float depth;
   Vec3f position, normal;
+  float per_reach;  ///< how far before or behind it another surface begins, inverted
 };
 
 template <class Function>
@@ -47,18 +46,20 @@ void for_each(std::size_t count, Function&& function) {
 class BufferPainter {
  public:
   BufferPainter(std::span<const Target* const> targets, const Surroundings& surroundings,
-                const Camera& camera, int width, int height)
+                const Camera& camera, int width, int height, int edge_rays)
       : targets_(targets),
         surroundings_(surroundings),
         camera_(camera),
+        edge_rays_(static_cast<std::size_t>(edge_rays)),
+        places_(sobol_points(edge_rays, 3)),
         pixel_(2 * camera.tan_x / static_cast<float>(width)),
         tiles_across_((width + kTile - 1) / kTile) {
     buffers_.resize(width, height);
+    buffers_.edge_rays = edge_rays;
     buffers_.to_light = sun_direction(camera);
     buffers_.to_eye = -camera.forward;
-    for (int i = 0; i < kTurns; ++i) {
-      const Vec2f turn = sobol(i, 1);
-      key_turns_[i] = normalized(on_disk(buffers_.to_light, turn, kSunRadius));
+    for (const Vec2f turn : sobol_points(kTurns, 1)) {
+      key_turns_.push_back(normalized(on_disk(buffers_.to_light, turn, kSunRadius)));
     }
   }
 
@@ -70,9 +71,10 @@ class BufferPainter {
     }
     share();
     find_edges();
-    constexpr std::size_t kEdges = kBatch / kEdgeRays;
-    for (std::size_t first = 0; first < buffers_.edges.size(); first += kEdges) {
-      look_around(first, std::min(kEdges, buffers_.edges.size() - first));
+    const std::size_t some =
+        std::max<std::size_t>(1, kBatch / std::max<std::size_t>(1, edge_rays_));
+    for (std::size_t first = 0; first < buffers_.edges.size(); first += some) {
+      look_around(first, std::min(some, buffers_.edges.size() - first));
     }
     return std::move(buffers_);
   }
@@ -168,15 +170,17 @@ class BufferPainter {
   }
 
   Point point(std::size_t i) const {
-    return {buffers_.object[i], buffers_.depth[i], buffers_.position[i], buffers_.normal[i]};
+    return {buffers_.object[i], buffers_.position[i], buffers_.normal[i],
+            per_reach(buffers_.depth[i])};
   }
+  float per_reach(float depth) const { return 1 / (4 * pixel_ * depth); }
 
   /// How much two points belong to one surface, 0..1.
   float likeness(const Point& a, const Point& b) const {
-    if (a.object != b.object) return 0;
-    const float apart = std::abs(dot(a.normal, b.position - a.position)) / (4 * pixel_ * a.depth);
-    const float turned = std::max(0.0f, dot(a.normal, b.normal));
-    return std::max(0.0f, 1 - apart) * turned * turned;
+    const float turned = dot(a.normal, b.normal);
+    if (a.object != b.object || !(turned > 0)) return 0;
+    const float apart = std::abs(dot(a.normal, b.position - a.position));
+    return std::max(0.0f, 1 - apart * a.per_reach) * turned * turned;
   }
 
   /// Every pixel takes the mean light of its surface around it, every turn counted once.
@@ -240,19 +244,18 @@ class BufferPainter {
     for (const auto& row : rows) {
       buffers_.edges.insert(buffers_.edges.end(), row.begin(), row.end());
     }
-    buffers_.samples.resize(kEdgeRays * buffers_.edges.size());
+    buffers_.samples.resize(edge_rays_ * buffers_.edges.size());
   }
 
   /// More rays for some of the edges.
   void look_around(std::size_t first, std::size_t count) {
-    static const auto kPlaces = sobol_points<kEdgeRays>(3);
     const std::span edges = std::span(buffers_.edges).subspan(first, count);
     const std::span samples =
-        std::span(buffers_.samples).subspan(kEdgeRays * first, kEdgeRays * count);
+        std::span(buffers_.samples).subspan(edge_rays_ * first, edge_rays_ * count);
     std::vector<Ray> rays(samples.size());
     for_each(samples.size(), [&](std::size_t i) {
-      const auto [x, y] = pixel_at(edges[i / kEdgeRays]);
-      const Vec2f place = kPlaces[i % kEdgeRays];
+      const auto [x, y] = pixel_at(edges[i / edge_rays_]);
+      const Vec2f place = places_[i % edge_rays_];
       rays[i] = ray_through(x + place.x, y + place.y);
     });
     const std::vector<Spot> spots = nearest(rays);
@@ -263,11 +266,11 @@ class BufferPainter {
       sample = {
           spot.object, depth_of(spot, rays[i]), spot.normal, spot.position, spot.color, sample.key,
           sample.open};
-      lit[i] = !spot.hit() || light_like(pixel_at(edges[i / kEdgeRays]), sample);
+      lit[i] = !spot.hit() || light_like(pixel_at(edges[i / edge_rays_]), sample);
     });
     light_alone(samples, spots, lit);
     for_each(count,
-             [&](std::size_t i) { cover(edges[i], samples.subspan(kEdgeRays * i, kEdgeRays)); });
+             [&](std::size_t i) { cover(edges[i], samples.subspan(edge_rays_ * i, edge_rays_)); });
   }
 
   Pixel pixel_at(std::uint32_t index) const {
@@ -278,7 +281,7 @@ class BufferPainter {
   /// Gives the sample the light of that pixel around it which is most like it; false where there
   /// is none.
   bool light_like(Pixel pixel, EdgeSample& sample) const {
-    const Point here{sample.object, sample.depth, sample.position, sample.normal};
+    const Point here{sample.object, sample.position, sample.normal, per_reach(sample.depth)};
     float best = 0;
     for (int j = -1; j <= 1; ++j) {
       for (int i = -1; i <= 1; ++i) {
@@ -316,24 +319,26 @@ class BufferPainter {
       buffers_.foliage[pixel] += sample.object == Object::foliage;
       buffers_.wood[pixel] += sample.object == Object::wood;
     }
-    buffers_.foliage[pixel] /= 1 + kEdgeRays;
-    buffers_.wood[pixel] /= 1 + kEdgeRays;
+    buffers_.foliage[pixel] /= 1 + samples.size();
+    buffers_.wood[pixel] /= 1 + samples.size();
   }
 
   std::span<const Target* const> targets_;
   const Surroundings& surroundings_;
   const Camera& camera_;
-  float pixel_;  ///< its size at a depth of 1
+  std::size_t edge_rays_;
+  std::vector<Vec2f> places_;  ///< of an edge's rays in its pixel
+  float pixel_;                ///< its size at a depth of 1
   int tiles_across_;
-  std::array<Vec3f, kTurns> key_turns_;
+  std::vector<Vec3f> key_turns_;
   Buffers buffers_;
 };
 
 }  // namespace
 
 Buffers draw_buffers(std::span<const Target* const> targets, const Surroundings& surroundings,
-                     const Camera& camera, int width, int height) {
-  return BufferPainter(targets, surroundings, camera, width, height).draw();
+                     const Camera& camera, int width, int height, int edge_rays) {
+  return BufferPainter(targets, surroundings, camera, width, height, edge_rays).draw();
 }
 
 }  // namespace leafhull::render

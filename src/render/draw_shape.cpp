@@ -13,6 +13,7 @@ namespace render {
 namespace {
 
 constexpr float kMargin = 0.02f;
+constexpr int kEdgeRays = 4;
 
 Picture draw(const Mesh& mesh, const Frame& view, const Box& box, int width, int height) {
   const Placement placement{(box.low + box.high) / 2, 1 / box.longest_side()};
@@ -25,7 +26,8 @@ Picture draw(const Mesh& mesh, const Frame& view, const Box& box, int width, int
                               static_cast<float>(view.reach * placement.scale));
   const MeshTarget target(scene);
   const std::array<const Target*, 1> targets{&target};
-  return shade_matte(draw_buffers(targets, MeshSurroundings(targets), camera, width, height));
+  return shade_matte(
+      draw_buffers(targets, MeshSurroundings(targets), camera, width, height, kEdgeRays));
 }
 
 /// The box of what a frame holds.

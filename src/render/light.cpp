@@ -2,6 +2,7 @@
 #include "render/light.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace leafhull::render {
@@ -18,6 +19,18 @@ Vec3f sky(Vec3f direction) {
 Vec3f develop(Vec3f radiance) {
   const auto shoulder = [](float x) { return x < 0.5f ? x : 1 - 0.25f / x; };
   return {shoulder(radiance.x), shoulder(radiance.y), shoulder(radiance.z)};
+}
+
+float linear(std::uint8_t srgb) {
+  static const auto kTable = [] {
+    std::array<float, 256> table;
+    for (int i = 0; i < 256; ++i) {
+      const float s = i / 255.0f;
+      table[i] = s <= 0.04045f ? s / 12.92f : std::pow((s + 0.055f) / 1.055f, 2.4f);
+    }
+    return table;
+  }();
+  return kTable[srgb];
 }
 
 std::uint8_t srgb(float linear) {

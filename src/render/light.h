@@ -32,4 +32,7 @@ Vec3f develop(Vec3f radiance);
 /// 8 bits of sRGB. Source: IEC 61966-2-1.
 std::uint8_t srgb(float linear);
 
+/// What 8 bits of sRGB stand for.
+float linear(std::uint8_t srgb);
+
 }  // namespace leafhull::render

@@ -43,7 +43,7 @@ void MeshTarget::occluded(std::span<const Ray> rays, float reach,
 
 void MeshSurroundings::openness(std::span<const Spot> spots, std::span<const std::uint8_t> turns,
                                 std::span<float> open) const {
-  static const auto kDirections = sobol_points<kTurns>(2);
+  static const auto kDirections = sobol_points(kTurns, 2);
   std::vector<Ray> rays;
   std::vector<std::size_t> asked;
   for (std::size_t i = 0; i < spots.size(); ++i) {

@@ -3,9 +3,9 @@
 
 #include <array>
 #include <cmath>
-#include <cstddef>
 #include <cstdint>
 #include <numbers>
+#include <vector>
 
 #include "leafhull/vec.h"
 
@@ -50,10 +50,9 @@ inline Vec2f sobol(std::uint32_t index, std::uint32_t seed) {
 }
 
 /// The first points of a sequence.
-template <std::size_t count>
-std::array<Vec2f, count> sobol_points(std::uint32_t seed) {
-  std::array<Vec2f, count> points;
-  for (std::uint32_t i = 0; i < count; ++i) points[i] = sobol(i, seed);
+inline std::vector<Vec2f> sobol_points(int count, std::uint32_t seed) {
+  std::vector<Vec2f> points;
+  for (int i = 0; i < count; ++i) points.push_back(sobol(i, seed));
   return points;
 }
 

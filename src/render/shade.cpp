@@ -35,10 +35,10 @@ Picture shade(const Buffers& buffers, Color&& color, Encode&& encode) {
   tbb::parallel_for(std::size_t{0}, buffers.edges.size(), [&](std::size_t edge) {
     const std::uint32_t i = buffers.edges[edge];
     Vec3f sum = color(centre(buffers, i));
-    for (int ray = 0; ray < Buffers::kEdgeRays; ++ray) {
-      sum = sum + color(buffers.samples[edge * Buffers::kEdgeRays + ray]);
+    for (int ray = 0; ray < buffers.edge_rays; ++ray) {
+      sum = sum + color(buffers.samples[edge * buffers.edge_rays + ray]);
     }
-    put(i, sum * (1.0f / (1 + Buffers::kEdgeRays)));
+    put(i, sum / static_cast<float>(1 + buffers.edge_rays));
   });
   return picture;
 }

@@ -10,15 +10,9 @@
 #include "leafhull/shape.h"
 #include "leafhull/tree.h"
 #include "render/embree.h"
+#include "render/placement.h"
 
 namespace leafhull::render {
-
-/// From model space to the scene's: `origin` becomes zero, lengths are multiplied by `scale`.
-struct Placement {
-  Vec3d origin;
-  double scale = 1;
-  Vec3f operator()(Vec3d p) const { return Vec3f((p - origin) * scale); }
-};
 
 enum class Look { wood, leaf, shape };
 

@@ -2,20 +2,13 @@
 #include "render/texture.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+
+#include "render/light.h"
 
 namespace leafhull::render {
 namespace {
-
-/// IEC 61966-2-1, decoded.
-const std::array<float, 256> kLinear = [] {
-  std::array<float, 256> table;
-  for (int i = 0; i < 256; ++i) {
-    const float s = i / 255.0f;
-    table[i] = s <= 0.04045f ? s / 12.92f : std::pow((s + 0.055f) / 1.055f, 2.4f);
-  }
-  return table;
-}();
 
 /// Two neighbouring texels along one axis and the weight of the second.
 struct Texels {
@@ -61,7 +54,7 @@ Vec3f base_color(const Material& material, const Image* image, Vec2f uv) {
   for_each_texel(*image, material, uv, [&](const std::uint8_t* rgba, float weight) {
     // Colours count by their alpha: what lies under a hole must not bleed into the leaf.
     const float covered = weight * std::max<float>(rgba[3], 0.001f);
-    sum = sum + Vec3f{kLinear[rgba[0]], kLinear[rgba[1]], kLinear[rgba[2]]} * covered;
+    sum = sum + Vec3f{linear(rgba[0]), linear(rgba[1]), linear(rgba[2])} * covered;
     total += covered;
   });
   return {plain.x * sum.x / total, plain.y * sum.y / total, plain.z * sum.z / total};
