@@ -13,10 +13,11 @@
 
 // Planes from what pixels see; sums over a pixel, so zero where it sees nothing. light: 0..1, of
 // which the sky gives a share of `sky`, the key light wrapped around by `wrap`.
-kernel void see(int width, int height, int pitch, global const uchar* object, image normal,
-                image position, image depth, image key, image open, float lx, float ly, float lz,
-                float sky, float wrap, canvas seen, canvas light, canvas far, canvas x, canvas y,
-                canvas z) {
+kernel void see(int width, int height, int pitch, global const uchar* object,
+                global const float* normal, global const float* position, global const float* depth,
+                global const float* key, global const float* open, float lx, float ly, float lz,
+                float sky, float wrap, global float* seen, global float* light, global float* far,
+                global float* x, global float* y, global float* z) {
   const int column = get_global_id(0), row = get_global_id(1);
   const int to = row * pitch + column;
   const bool inside = column < width && row < height;
@@ -35,7 +36,7 @@ kernel void see(int width, int height, int pitch, global const uchar* object, im
 }
 
 // A plane of a picture's values; the padding is zero.
-kernel void pad(int width, int height, int pitch, image values, canvas out) {
+kernel void pad(int width, int height, int pitch, global const float* values, global float* out) {
   const int column = get_global_id(0), row = get_global_id(1);
   const bool inside = column < width && row < height;
   out[row * pitch + column] = inside ? values[row * width + column] : 0.0f;
@@ -46,12 +47,14 @@ kernel void darkness(image light, image seen, canvas out) {
   STORE(saturate(1.0f - share(LOAD(light), LOAD(seen))), out);
 }
 
-// The blurred depth test: v = 1 - smoothstep(0, d, z - blur(z)). Luft and Deussen 2006.
-kernel void visibility(image seen, image far, image seen_around, image far_around, float reach,
-                       canvas out) {
-  const real part = LOAD(seen);
-  const real behind = share(LOAD(far), part) - share(LOAD(far_around), LOAD(seen_around));
-  STORE(1.0f - part * smooth(REAL(0.0f), REAL(reach), behind), out);
+// The blurred depth test: v = 1 - smoothstep(0, d, z - blur(z)). Luft and Deussen 2006. A pixel
+// that sees nothing, but that paint may reach, is as far as what is `near` it.
+kernel void visibility(image seen, image far, image seen_near, image far_near, image seen_around,
+                       image far_around, float reach, canvas out) {
+  const real part = LOAD(seen), part_around = LOAD(seen_around);
+  const real z = blend(share(LOAD(far_near), LOAD(seen_near)), LOAD(far), part);
+  const real behind = z - share(LOAD(far_around), part_around);
+  STORE(1.0f - smooth(REAL(0.0f), REAL(reach), behind), out);
 }
 
 // a, as much as b lets it: a blend of a and a b by `amount`.
@@ -122,8 +125,9 @@ kernel void bleed(canvas absorbance, image around, image wet) {
 }
 
 // sRGB of the paper under the paint. shading: of the paper's relief, Montesdeoca et al. 2017.
-kernel void develop(int width, int pitch, image red, image green, image blue, image relief,
-                    float4 paper, float shading, global uchar* rgb) {
+kernel void develop(int width, int pitch, global const float* red, global const float* green,
+                    global const float* blue, global const float* relief, float4 paper,
+                    float shading, global uchar* rgb) {
   const int column = get_global_id(0), row = get_global_id(1);
   const int i = row * pitch + column;
   const float3 absorbance = {red[i], green[i], blue[i]};

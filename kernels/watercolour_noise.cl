@@ -69,7 +69,7 @@ static real noise3(real x, real y, real z, uint seed) {
 // cells: of its grain in `size` pixels.
 kernel void paper(int pitch, float size, int cells, uint seed, canvas height, canvas speckle,
                   canvas sway, canvas relief) {
-  const size_t i = HERE;
+  const size_t i = get_global_id(0) * LANES;
   const real x = (REAL((float)(i % pitch) + 0.5f) + RAMP) / size * (float)cells;
   const real y = REAL(((float)(i / pitch) + 0.5f) / size * (float)cells);
   const int coarse = max(cells / 5, 1);
@@ -84,7 +84,7 @@ kernel void paper(int pitch, float size, int cells, uint seed, canvas height, ca
     tooth[k] = fma(REAL(0.62f), wide, 0.38f * middle);
   }
   const real fine = noise2(x * 3.0f, y * 3.0f, 3 * cells, seed + 2u);
-  STORE(saturate(fma(REAL(0.5f), tooth[0] + 0.25f * fine + 0.2f * drift, REAL(0.5f))), height);
+  STORE(saturate(fma(REAL(0.5f), tooth[0] + 0.3f * fine, REAL(0.5f))), height);
   STORE(fma(REAL(0.7f), fine, 0.5f * noise2(x * 1.5f, y * 1.5f, cells * 3 / 2, seed + 3u)),
         speckle);
   STORE(fma(REAL(0.7f), drift, 0.5f * noise2(x * 0.5f, y * 0.5f, max(cells / 2, 1), seed + 4u)),

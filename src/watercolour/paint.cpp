@@ -38,24 +38,26 @@ class Painting {
     const SeenPlanes seen = passes_.see(buffers_, style_.sky, kWrap);
     const Plane foliage = passes_.upload(buffers_.foliage), wood = passes_.upload(buffers_.wood);
     const Plane everywhere = passes_.constant(1);
+    const Plane outline = blurred(foliage, style_.ambient);
     look_around(seen);
+    const Leaves strokes = look_at_leaves(leaves, outline);
 
-    const Plane visible = passes_.visibility(seen, around_.seen, around_.far, style_.melting);
+    const float melting_width = style_.melting_width * unit_;
+    const Plane visible =
+        passes_.visibility(seen, around_, passes_.blur(seen.seen, melting_width),
+                           passes_.blur(seen.far, melting_width), style_.melting);
     const Plane reserved = passes_.mask(everywhere, visible, style_.gaps);
 
     // Wood first: foliage is painted over its edges.
-    const Plane bark = lay(style_.wood, blurred(wood, style_.wood), visible);
+    const Plane bark = lay(style_.wood, blurred(wood, style_.wood), passes_.mask(everywhere, visible, 0.6f));
     lay(style_.wood_shadow, dark(seen, style_.wood_shadow), bark);
 
-    const Plane outline = blurred(foliage, style_.ambient);
     const Plane crown = lay(style_.ambient, outline, reserved);
     const Plane inside = passes_.mask(crown, visible, 1);
     lay(style_.tone, dark(seen, style_.tone), inside);
-    lay(style_.shadow, dark(seen, style_.shadow), inside);
     run_together(crown);
-    if (style_.detail > 0 && !leaves.empty()) {
-      lay(style_.leaves, strokes(leaves, outline), everywhere);
-    }
+    lay(style_.shadow, dark(seen, style_.shadow), inside);
+    if (strokes.single) lay(style_.leaves, strokes.single, everywhere);
     return passes_.develop(absorbance_, paper_.relief, style_.paper, style_.relief);
   }
 
@@ -109,15 +111,22 @@ class Painting {
     for (const Plane& plane : absorbance_) passes_.bleed(plane, passes_.blur(plane, sigma), wet);
   }
 
-  Plane strokes(std::span<const Stroke> leaves, const Plane& outline) {
+  struct Leaves {
+    Plane single;  ///< leaves painted one by one, or none
+  };
+
+  /// Leaves as strokes of their own, and as what breaks the edges of washes.
+  Leaves look_at_leaves(std::span<const Stroke> leaves, const Plane& outline) {
+    if (leaves.empty()) return {};
     const std::vector<float> outline_here = passes_.download(outline);
     const std::vector<float> dark_here = passes_.download(dark_around_);
     const Room room{buffers_.width, buffers_.height, outline_here, dark_here, buffers_.depth};
-    return passes_.upload(paint_leaves(leaves, room,
-                                       {.detail = style_.detail,
-                                        .size = style_.leaf_size,
-                                        .least = style_.leaf_width * unit_,
-                                        .tolerance = 0.5f * style_.melting}));
+    const Brush brush{.size = style_.leaf_size,
+                      .least = style_.leaf_width * unit_,
+                      .tolerance = style_.melting};
+    flow_.breaking = passes_.blur(passes_.upload(break_edges(leaves, room, {.size = 1.8f * brush.size, .least = 1.6f * brush.least, .tolerance = brush.tolerance})), std::max(0.7f, 0.0008f * unit_));
+    if (style_.detail <= 0) return {};
+    return {passes_.upload(paint_leaves(leaves, room, brush, style_.detail))};
   }
 
   Passes& passes_;

@@ -24,7 +24,8 @@ constexpr float kBlurReach = 2.6f;  // standard deviations
 
 using Pool = std::vector<cl::Buffer>;
 
-int padded(int n) { return (n + kPadding - 1) / kPadding * kPadding; }
+/// An odd multiple of kPadding: rows a power of two apart would share few lines of the cache.
+int padded(int n) { return ((n + kPadding - 1) / kPadding | 1) * kPadding; }
 
 /// Of a Gaussian: of the middle, then of the neighbours; both sides together sum to 1.
 std::vector<float> gaussian(float sigma) {
@@ -107,7 +108,8 @@ struct Passes::Impl {
   void blur_turning(const Plane& in, int in_pitch, int in_rows, int rows_within,
                     const cl::Buffer& weights, int reach, const Plane& out) {
     launch("blur", cl::NDRange(in_pitch / lanes, in_rows / lanes), cl::NDRange(1, 1), in, in_pitch,
-           rows_within, weights, reach, out, in_rows);
+           rows_within, weights, reach,
+           cl::Local((lanes + 2 * reach) * lanes * sizeof(float)), out, in_rows);
   }
 };
 
@@ -208,10 +210,11 @@ Plane Passes::darkness(const Plane& light, const Plane& seen) {
   return out;
 }
 
-Plane Passes::visibility(const SeenPlanes& here, const Plane& seen_around, const Plane& far_around,
-                         float reach) {
+Plane Passes::visibility(const SeenPlanes& here, const SeenPlanes& near, const Plane& seen_around,
+                         const Plane& far_around, float reach) {
   Plane out = impl_->plane();
-  impl_->over_plane("visibility", here.seen, here.far, seen_around, far_around, reach, out);
+  impl_->over_plane("visibility", here.seen, here.far, near.seen, near.far, seen_around, far_around,
+                    reach, out);
   return out;
 }
 

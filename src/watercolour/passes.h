@@ -65,8 +65,8 @@ class Passes {
   /// Gaussian, `sigma` in pixels.
   Plane blur(const Plane& in, float sigma);
   Plane darkness(const Plane& light, const Plane& seen);
-  Plane visibility(const SeenPlanes& here, const Plane& seen_around, const Plane& far_around,
-                   float reach);
+  Plane visibility(const SeenPlanes& here, const SeenPlanes& near, const Plane& seen_around,
+                   const Plane& far_around, float reach);
   /// `plane` where `by` is 1 or `amount` 0, else less.
   Plane mask(const Plane& plane, const Plane& by, float amount);
   Plane layer(const Plane& rho, const Plane& within, const PaperPlanes& paper,

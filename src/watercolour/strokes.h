@@ -25,15 +25,20 @@ struct Room {
 };
 
 struct Brush {
-  float detail = 0.5f;  ///< the part of the leaves that is painted
   float size = 1;       ///< of a stroke, in leaves
   float least = 0;      ///< of the half-length, pixels
   float tolerance = 0;  ///< how far behind the surface a leaf is still painted
 };
 
-/// How much of each pixel strokes cover, 0..1: leaves at the silhouette and in the light, chosen by
-/// a hash of the leaf alone, so that a leaf that turns with the tree stays or fades.
+/// Leaves that break the edges of washes: each pixel has what its strongest leaf adds or takes,
+/// -1..1. Which of the two is a hash of the leaf.
+std::vector<float> break_edges(std::span<const Stroke> strokes, const Room& room,
+                               const Brush& brush);
+
+/// How much of each pixel leaves cover that are painted one by one, 0..1: at the silhouette and in
+/// the light, the part `detail` of them. Which, is a hash of the leaf alone, so that a leaf that
+/// turns with the tree stays or fades.
 std::vector<float> paint_leaves(std::span<const Stroke> strokes, const Room& room,
-                                const Brush& brush);
+                                const Brush& brush, float detail);
 
 }  // namespace leafhull::watercolour

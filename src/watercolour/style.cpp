@@ -201,6 +201,8 @@ std::span<const StyleKey> style_keys() {
       {"wobble", "[0, 1]", "how an edge sways", &Style::wobble, 0, 1},
       {"melting", "[0.001, 1]", "how far behind another a mass has melted away", &Style::melting,
        0.001f, 1},
+      {"melting_width", "[0.001, 0.1]", "how far around masses melt", &Style::melting_width, 0.001f,
+       0.1f},
       {"gaps", "[0, 1]", "paper left free behind a mass in front", &Style::gaps, 0, 1},
       {"detail", "[0, 1]", "how many leaves are painted one by one", &Style::detail, 0, 1},
       {"leaf_size", "[0.1, 10]", "the size of their strokes, in leaves", &Style::leaf_size, 0.1f,

@@ -45,6 +45,7 @@ struct Style {
   float edge_width = 0.0035f;  ///< of dark rims
   float wobble = 0.05f;        ///< how an edge sways
   float melting = 0.05f;       ///< how far behind another a mass has melted away; in the scene
+  float melting_width = 0.016f;
   float gaps = 0.3f;           ///< paper left free behind a mass in front
 
   float detail = 0.4f;        ///< how many leaves are painted one by one
