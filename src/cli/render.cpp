@@ -29,14 +29,27 @@ std::string lower_extension(const fs::path& file) {
 
 bool is_field(const Arguments& arguments) { return lower_extension(arguments.tree) == ".vdb"; }
 
+/// Whether a word that is no name was meant to be a file's.
+bool looks_like_file(const std::string& text) {
+  const fs::path file(text);
+  return file.has_extension() || file.has_parent_path() || fs::exists(file);
+}
+
 /// A viewpoint by its name, else the camera in a file.
 std::variant<Viewpoint, View> camera_of(const std::string& text) {
   const auto valid = names(Viewpoint{});
-  const auto found = std::find(valid.begin(), valid.end(), text);
-  if (found != valid.end()) return static_cast<Viewpoint>(found - valid.begin());
-  const fs::path file(text);
-  if (file.has_extension() || file.has_parent_path() || fs::exists(file)) return read_view(file);
-  return static_cast<Viewpoint>(choice("--camera", text, valid));  // says what the names are
+  const bool is_name = std::find(valid.begin(), valid.end(), text) != valid.end();
+  if (!is_name && looks_like_file(text)) return read_view(text);
+  return static_cast<Viewpoint>(choice("--camera", text, valid));
+}
+
+/// A style by its name, else from a file.
+WatercolourStyle style_of(const std::string& text, std::optional<double> detail) {
+  const auto valid = watercolour_styles();
+  if (text.empty()) return read_watercolour_style(std::string(valid.front()), detail);
+  const bool is_name = std::find(valid.begin(), valid.end(), text) != valid.end();
+  if (!is_name && !looks_like_file(text)) choice("--watercolour-style", text, valid);
+  return read_watercolour_style(text, detail);
 }
 
 [[noreturn]] void refuse(const std::string& what, const std::string& remedy) {
@@ -93,9 +106,7 @@ PictureOptions checked(const Arguments& arguments) {
   check_pictures(arguments.pictures, arguments.tree);
   PictureOptions drawing = arguments.drawing;
   drawing.camera = camera_of(arguments.camera);
-  const std::string style = arguments.watercolour_style;
-  drawing.style = read_watercolour_style(
-      style.empty() ? std::string(watercolour_styles().front()) : style, arguments.detail);
+  drawing.style = style_of(arguments.watercolour_style, arguments.detail);
   check_picture(drawing);
   return drawing;
 }
@@ -192,7 +203,7 @@ class Run {
 
   void write(const Subject& subject, Device& device) {
     const Report& report = subject.report();
-    if (report.threshold > 0) {
+    if (report.resolution > 0) {
       console_.detail("surface     T = " + number(report.threshold, 4) + ", " +
                       count(static_cast<std::uint64_t>(report.resolution)) + " voxels of " +
                       number(report.voxel_size, 4));

@@ -6,7 +6,10 @@
 
 #include <array>
 #include <cerrno>
+#include <iterator>
+#include <sstream>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -20,43 +23,25 @@
 namespace leafhull {
 namespace {
 
-/// H.264 halves its colours' size, so both sides must be even: paper where they are not. Whole
-/// pictures follow the head of the file, so that it plays while it loads.
-const std::vector<std::string> kMp4 = {
-    "-vf",       "pad=ceil(iw/2)*2:ceil(ih/2)*2:color=white,format=yuv420p",
-    "-c:v",      "libx264",
-    "-preset",   "medium",
-    "-crf",      "18",
-    "-movflags", "+faststart",
-    "-f",        "mp4"};
-const std::vector<std::string> kWebp = {"-c:v", "libwebp_anim", "-quality", "85", "-loop",
-                                        "0",    "-f",           "webp"};
+/// Frames come from descriptor 0. The film goes to descriptor 3, which unlike a name is no new file
+/// where the old one has been removed meanwhile; the same frames make the same film.
+constexpr std::string_view kInput =
+    "ffmpeg -nostdin -hide_banner -loglevel error -f rawvideo -pixel_format rgb24";
+constexpr std::string_view kOutput = "-fflags +bitexact -flags:v +bitexact -y file:/proc/self/fd/3";
 
-std::vector<std::string> command(const std::filesystem::path& name, const char* file, int width,
-                                 int height, double frames_per_second) {
-  std::vector<std::string> words = {"ffmpeg",
-                                    "-nostdin",
-                                    "-hide_banner",
-                                    "-loglevel",
-                                    "error",
-                                    "-f",
-                                    "rawvideo",
-                                    "-pixel_format",
-                                    "rgb24",
-                                    "-video_size",
-                                    std::to_string(width) + "x" + std::to_string(height),
-                                    "-framerate",
-                                    std::to_string(frames_per_second),
-                                    "-i",
-                                    "pipe:0"};
-  const std::vector<std::string>& format = lower_extension(name) == ".webp" ? kWebp : kMp4;
-  words.insert(words.end(), format.begin(), format.end());
-  // The same frames make the same film.
-  for (const char* word : {"-fflags", "+bitexact", "-flags:v", "+bitexact", "-y"}) {
-    words.emplace_back(word);
-  }
-  words.push_back("file:" + std::string(file));
-  return words;
+/// H.264 keeps its colours at half the size, so both sides must be even: paper where they are not.
+constexpr std::string_view kMp4 =
+    "-vf pad=ceil(iw/2)*2:ceil(ih/2)*2:color=white,format=yuv420p "
+    "-c:v libx264 -preset medium -crf 18 -movflags +faststart -f mp4";
+constexpr std::string_view kWebp = "-c:v libwebp_anim -quality 85 -loop 0 -f webp";
+
+std::vector<std::string> command(const std::filesystem::path& name, int width, int height,
+                                 double frames_per_second) {
+  std::ostringstream line;
+  line << kInput << " -video_size " << width << 'x' << height << " -framerate " << frames_per_second
+       << " -i pipe:0 " << (lower_extension(name) == ".webp" ? kWebp : kMp4) << ' ' << kOutput;
+  std::istringstream words(line.str());
+  return {std::istream_iterator<std::string>(words), {}};
 }
 
 }  // namespace
@@ -71,8 +56,9 @@ Film::Film(std::filesystem::path file, int width, int height, double frames_per_
   }
   frames_ = ends[0];
   try {
-    ffmpeg_.emplace(command(name_, file_.path(), width, height, frames_per_second),
-                    std::array{ends[1], messages_.descriptor(), messages_.descriptor()});
+    ffmpeg_.emplace(
+        command(name_, width, height, frames_per_second),
+        std::vector{ends[1], messages_.descriptor(), messages_.descriptor(), file_.descriptor()});
   } catch (const std::system_error& error) {
     ::close(ends[0]), ::close(ends[1]);
     throw Error(ErrorCode::output,

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "process/process.h"
 
+#include <fcntl.h>
 #include <signal.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstdlib>
 #include <filesystem>
@@ -15,6 +17,29 @@
 #include <utility>
 
 namespace leafhull {
+namespace {
+
+/// Descriptors again, above all those that they are to become.
+class OutOfTheWay {
+ public:
+  explicit OutOfTheWay(const std::vector<int>& files) {
+    for (const int file : files) {
+      copies_.push_back(::fcntl(file, F_DUPFD_CLOEXEC, static_cast<int>(files.size())));
+    }
+  }
+  ~OutOfTheWay() {
+    for (const int copy : copies_) ::close(copy);
+  }
+  OutOfTheWay(const OutOfTheWay&) = delete;
+  OutOfTheWay& operator=(const OutOfTheWay&) = delete;
+
+  int operator[](std::size_t i) const { return copies_[i]; }
+
+ private:
+  std::vector<int> copies_;
+};
+
+}  // namespace
 
 bool finds_program(const std::string& name) {
   const char* path = std::getenv("PATH");
@@ -30,10 +55,13 @@ bool finds_program(const std::string& name) {
   return false;
 }
 
-Process::Process(std::vector<std::string> words, const std::array<int, 3>& streams) {
+Process::Process(std::vector<std::string> words, const std::vector<int>& files) {
+  const OutOfTheWay sources(files);
   posix_spawn_file_actions_t actions;
   ::posix_spawn_file_actions_init(&actions);
-  for (int i = 0; i < 3; ++i) ::posix_spawn_file_actions_adddup2(&actions, streams[i], i);
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    ::posix_spawn_file_actions_adddup2(&actions, sources[i], static_cast<int>(i));
+  }
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);

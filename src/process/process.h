@@ -3,7 +3,6 @@
 
 #include <sys/types.h>
 
-#include <array>
 #include <string>
 #include <vector>
 
@@ -16,10 +15,11 @@ bool finds_program(const std::string& name);
 /// unless it has been waited for.
 class Process {
  public:
-  /// @param words   the program's name, then its arguments.
-  /// @param streams descriptors that become its standard streams.
+  /// @param words the program's name, then its arguments.
+  /// @param files descriptors that become its own 0, 1, 2, ..., which begin with its standard
+  ///        streams.
   /// @throws std::system_error where it does not start.
-  Process(std::vector<std::string> words, const std::array<int, 3>& streams);
+  Process(std::vector<std::string> words, const std::vector<int>& files);
   ~Process();
   Process(const Process&) = delete;
   Process& operator=(const Process&) = delete;

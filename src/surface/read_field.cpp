@@ -93,7 +93,8 @@ std::optional<double> stored_threshold(const FloatGrid& grid) {
 
 double threshold_of(const FloatGrid& grid, std::optional<double> asked, const fs::path& file) {
   const std::optional<double> stored = stored_threshold(grid);
-  if (stored && asked && *stored != *asked) {
+  constexpr double kAsPrinted = 1e-5;
+  if (stored && asked && !(std::abs(*stored - *asked) <= kAsPrinted * *stored)) {
     throw Error(ErrorCode::usage,
                 file.string() + " was sampled for T = " + number(*stored) + " and no other",
                 "Leave --threshold out, or render the tree itself.");
