@@ -57,6 +57,7 @@ class BufferPainter {
         tiles_across_((width + kTile - 1) / kTile) {
     buffers_.resize(width, height);
     buffers_.edge_rays = effort.edge_rays;
+    buffers_.eye = camera.eye;
     buffers_.to_light = sun_direction(camera);
     buffers_.to_eye = -camera.forward;
     for (const Vec2f turn : sobol_points(kTurns, 1)) {
