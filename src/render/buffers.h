@@ -36,6 +36,7 @@ struct Buffers {
   std::vector<std::uint32_t> edges;  ///< the pixels where surfaces end, each once
   int edge_rays = 0;                 ///< of an edge, beside the one through its centre
   std::vector<EdgeSample> samples;   ///< edge_rays for each edge, in the order of `edges`
+  Vec3f eye;                         ///< of the camera, in the scene
   Vec3f to_light;                    ///< unit, towards the key light
   Vec3f to_eye;                      ///< unit, against the camera's axis
 

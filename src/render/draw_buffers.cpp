@@ -46,16 +46,18 @@ void for_each(std::size_t count, Function&& function) {
 class BufferPainter {
  public:
   BufferPainter(std::span<const Target* const> targets, const Surroundings& surroundings,
-                const Camera& camera, int width, int height, int edge_rays)
+                const Camera& camera, int width, int height, Effort effort)
       : targets_(targets),
         surroundings_(surroundings),
         camera_(camera),
-        edge_rays_(static_cast<std::size_t>(edge_rays)),
-        places_(sobol_points(edge_rays, 3)),
+        edge_rays_(static_cast<std::size_t>(effort.edge_rays)),
+        shares_(effort.shares),
+        places_(sobol_points(effort.edge_rays, 3)),
         pixel_(2 * camera.tan_x / static_cast<float>(width)),
         tiles_across_((width + kTile - 1) / kTile) {
     buffers_.resize(width, height);
-    buffers_.edge_rays = edge_rays;
+    buffers_.edge_rays = effort.edge_rays;
+    buffers_.eye = camera.eye;
     buffers_.to_light = sun_direction(camera);
     buffers_.to_eye = -camera.forward;
     for (const Vec2f turn : sobol_points(kTurns, 1)) {
@@ -69,7 +71,7 @@ class BufferPainter {
     for (int first = 0; first < tiles_down; first += band) {
       look(first, std::min(band, tiles_down - first));
     }
-    share();
+    for (int i = 0; i < shares_; ++i) share();
     find_edges();
     const std::size_t some =
         std::max<std::size_t>(1, kBatch / std::max<std::size_t>(1, edge_rays_));
@@ -327,6 +329,7 @@ class BufferPainter {
   const Surroundings& surroundings_;
   const Camera& camera_;
   std::size_t edge_rays_;
+  int shares_;
   std::vector<Vec2f> places_;  ///< of an edge's rays in its pixel
   float pixel_;                ///< its size at a depth of 1
   int tiles_across_;
@@ -337,8 +340,8 @@ class BufferPainter {
 }  // namespace
 
 Buffers draw_buffers(std::span<const Target* const> targets, const Surroundings& surroundings,
-                     const Camera& camera, int width, int height, int edge_rays) {
-  return BufferPainter(targets, surroundings, camera, width, height, edge_rays).draw();
+                     const Camera& camera, int width, int height, Effort effort) {
+  return BufferPainter(targets, surroundings, camera, width, height, effort).draw();
 }
 
 }  // namespace leafhull::render

@@ -9,10 +9,14 @@
 
 namespace leafhull::render {
 
+struct Effort {
+  int edge_rays = 8;  ///< where surfaces end, beside the one through the pixel's centre
+  int shares = 2;     ///< how often neighbours share their light: less noise, softer shadows
+};
+
 /// What each pixel of a picture of `targets`, the nearest first in front, sees, and the light of
 /// the key light and of the sky there.
-/// @param edge_rays beside the one through the centre of a pixel where surfaces end
 Buffers draw_buffers(std::span<const Target* const> targets, const Surroundings& surroundings,
-                     const Camera& camera, int width, int height, int edge_rays = 8);
+                     const Camera& camera, int width, int height, Effort effort = {});
 
 }  // namespace leafhull::render

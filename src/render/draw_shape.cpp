@@ -13,7 +13,7 @@ namespace render {
 namespace {
 
 constexpr float kMargin = 0.02f;
-constexpr int kEdgeRays = 4;
+constexpr Effort kEffort{.edge_rays = 4, .shares = 1};
 
 Picture draw(const Mesh& mesh, const Frame& view, const Box& box, int width, int height) {
   const Placement placement{(box.low + box.high) / 2, 1 / box.longest_side()};
@@ -27,7 +27,7 @@ Picture draw(const Mesh& mesh, const Frame& view, const Box& box, int width, int
   const MeshTarget target(scene);
   const std::array<const Target*, 1> targets{&target};
   return shade_matte(
-      draw_buffers(targets, MeshSurroundings(targets), camera, width, height, kEdgeRays));
+      draw_buffers(targets, MeshSurroundings(targets), camera, width, height, kEffort));
 }
 
 /// The box of what a frame holds.

@@ -59,10 +59,10 @@ Vec3f diffuse(const EdgeSample& at, Vec3f to_light) {
 
 /// The key light's mirror image, blurred. Source: B. T. Phong, "Illumination for Computer Generated
 /// Pictures", CACM 18(6), 1975.
-Vec3f specular(const EdgeSample& at, Vec3f to_light, Vec3f to_eye) {
+Vec3f specular(const EdgeSample& at, Vec3f to_light, Vec3f eye) {
   const float facing = dot(at.normal, to_light);
   if (facing <= 0) return {};
-  const float mirrored = dot(at.normal * (2 * facing) - to_light, to_eye);
+  const float mirrored = dot(at.normal * (2 * facing) - to_light, normalized(eye - at.position));
   return kSun * (kGloss * at.key * std::pow(std::max(0.0f, mirrored), kShininess));
 }
 
@@ -71,7 +71,7 @@ Vec3f specular(const EdgeSample& at, Vec3f to_light, Vec3f to_eye) {
 Picture shade_phong(const Buffers& buffers) {
   const auto color = [&](const EdgeSample& at) {
     if (at.object == Object::paper) return kWhite;
-    return develop(diffuse(at, buffers.to_light) + specular(at, buffers.to_light, buffers.to_eye));
+    return develop(diffuse(at, buffers.to_light) + specular(at, buffers.to_light, buffers.eye));
   };
   return shade(buffers, color, srgb);
 }

@@ -4,39 +4,15 @@
 
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "leafhull/error.h"
 #include "leafhull/picture.h"
 #include "render/camera.h"
+#include "render_meshes.h"
 #include "render_pixels.h"
 
 namespace leafhull {
 namespace {
-
-/// A sphere of rings and segments, smooth.
-Mesh sphere(Vec3f centre, float radius) {
-  constexpr std::uint32_t kRings = 24, kSegments = 48;
-  Mesh mesh;
-  for (std::uint32_t i = 0; i <= kRings; ++i) {
-    for (std::uint32_t j = 0; j < kSegments; ++j) {
-      const float polar = std::numbers::pi_v<float> * i / kRings;
-      const float around = 2 * std::numbers::pi_v<float> * j / kSegments;
-      const Vec3f n{std::sin(polar) * std::sin(around), std::cos(polar),
-                    std::sin(polar) * std::cos(around)};
-      mesh.positions.push_back(centre + n * radius);
-      mesh.normals.push_back(n);
-    }
-  }
-  for (std::uint32_t i = 0; i < kRings; ++i) {
-    for (std::uint32_t j = 0; j < kSegments; ++j) {
-      const std::uint32_t a = i * kSegments + j, b = i * kSegments + (j + 1) % kSegments;
-      mesh.triangles.push_back({a, a + kSegments, b + kSegments});
-      mesh.triangles.push_back({a, b + kSegments, b});
-    }
-  }
-  return mesh;
-}
 
 /// The corners of a cube.
 Frame cube(double half, Vec3d centre = {}) {
