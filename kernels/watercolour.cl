@@ -69,11 +69,12 @@ kernel void mask(image a, image b, float amount, canvas out) {
 kernel void layer(image rho, image within, image height, image sway, image breaking, image wetness,
                   float level, float softness, float lost, float dryness, float wobble,
                   float ragged, canvas out) {
-  const real moved =
-      fma(REAL(dryness), LOAD(height) - 0.5f,
-          fma(REAL(wobble), LOAD(sway), fma(REAL(ragged), LOAD(breaking), LOAD(rho))));
+  const real r = LOAD(rho);
+  const real moved = fma(REAL(dryness), LOAD(height) - 0.5f,
+                         fma(REAL(wobble), LOAD(sway), ragged * LOAD(breaking)));
+  const real painted = saturate(8.0f * r);  // nothing moves paint to where there is none
   const real half_width = fma(REAL(lost), saturate(LOAD(wetness)), REAL(softness));
-  STORE(LOAD(within) * smooth(level - half_width, level + half_width, moved), out);
+  STORE(LOAD(within) * smooth(level - half_width, level + half_width, fma(painted, moved, r)), out);
 }
 
 // Pigment carried to the rim while a layer dries: more where the layer is denser than around.
@@ -83,12 +84,16 @@ kernel void darken_edges(image alpha, image around, float amount, canvas density
   STORE(a * fma(REAL(amount), fmax(a - LOAD(around), REAL(0.0f)), REAL(1.0f)), density);
 }
 
-// Density that varies by the turbulence of the water (Bousseau et al. 2006) and is thinned where
-// the light is brightest.
-kernel void dilute(canvas density, image turbulence, image dark, float turbulent, float dilution) {
+// Density that varies by the turbulence of the water (Bousseau et al. 2006), has backruns where
+// water flowed back and left its pigment along a front, and is thinned where the light is
+// brightest.
+kernel void dilute(canvas density, image turbulence, image dark, float turbulent, float backruns,
+                   float dilution) {
+  const real t = LOAD(turbulence);
+  const real front = smooth(REAL(0.0f), REAL(0.03f), t) * smooth(REAL(0.25f), REAL(0.03f), t);
+  const real stirred = fma(REAL(turbulent), t, fma(REAL(backruns), front, REAL(1.0f)));
   const real bright = smooth(REAL(0.3f), REAL(0.85f), 1.0f - LOAD(dark));
-  const real stirred = fmax(fma(REAL(turbulent), LOAD(turbulence), REAL(1.0f)), REAL(0.1f));
-  STORE(LOAD(density) * stirred * (1.0f - dilution * bright), density);
+  STORE(LOAD(density) * fmax(stirred, REAL(0.1f)) * (1.0f - dilution * bright), density);
 }
 
 // Pigment settles in the valleys of the paper, the more the denser it is (Montesdeoca et al. 2017),
@@ -97,8 +102,8 @@ kernel void granulate(canvas density, image height, image speckle, float granula
                       float dispersion) {
   const real d = LOAD(density);
   const real valley = 1.0f - 2.0f * LOAD(height);
-  const real more = d * fma(REAL(granulation), valley, dispersion * LOAD(speckle));
-  STORE(d * fmax(1.0f + more, REAL(0.1f)), density);
+  const real more = saturate(d) * fma(REAL(granulation), valley, dispersion * LOAD(speckle));
+  STORE(d * fmax(1.0f + more, REAL(0.4f)), density);
 }
 
 // Lays a layer over the ones before: absorbance += density * (-ln C), C between a cool and a warm

@@ -92,6 +92,21 @@ kernel void paper(int pitch, float size, int cells, uint seed, canvas height, ca
   STORE(1.0f + (tooth[0] - tooth[1]) + (tooth[0] - tooth[2]) + 0.5f * fine, relief);
 }
 
+// A patch of ground at (foot_x, foot_y), its half-axes (reach_x, reach_y) pixels: 1 in its middle
+// falling through 0, streaked along the ground.
+kernel void ground(int pitch, float size, float foot_x, float foot_y, float reach_x, float reach_y,
+                   uint seed, canvas out) {
+  const size_t i = get_global_id(0) * LANES;
+  const real x = REAL((float)(i % pitch) + 0.5f) + RAMP;
+  const float y = (float)(i / pitch) + 0.5f;
+  const real dx = (x - foot_x) / reach_x;
+  const real dy = REAL((y - foot_y) / reach_y);
+  const real u = x / size + 16.0f, v = REAL(y / size + 16.0f);
+  const real streaks = fma(REAL(0.6f), noise2(u * 5.0f, v * 35.0f, 1 << 20, seed),
+                           0.4f * noise2(u * 14.0f, v * 90.0f, 1 << 20, seed + 1u));
+  STORE(1.0f - sqrt(fma(dx, dx, dy * dy)) + 0.8f * streaks, out);
+}
+
 // Noise at points of the tree, which are sums over `seen` of a pixel: `turbulence` of the pigment,
 // `warmth` at the crown's scale, `breaking` of edges into leaves, `wetness` in patches; all about
 // -1..1. scale: cells of the turbulence in a unit of the scene.

@@ -14,12 +14,42 @@
 namespace leafhull::watercolour {
 namespace {
 
-constexpr float kWrap = 0.25f;    // how far light reaches around a mass
-constexpr float kLeafScale = 45;  // leaf-sized cells that break edges, in the scene
+constexpr float kWrap = 0.25f;        // how far light reaches around a mass
+constexpr float kBroad = 1.6f;        // of the brush that breaks edges, in strokes of single leaves
+constexpr float kSoftness = 0.0008f;  // of what it leaves, of the picture's height
+constexpr float kLeafScale = 45;      // leaf-sized cells that break edges, in the scene
 
 Vec3f absorbance(Vec3f color) {
   const auto of = [](float c) { return -std::log(std::max(c, 1 / 255.0f)); };
   return {of(color.x), of(color.y), of(color.z)};
+}
+
+/// Where the tree stands in the picture, and half the width of its crown; pixels.
+struct Foot {
+  float x, y, crown;
+};
+
+/// None where no wood is seen from the side.
+std::optional<Foot> find_foot(const render::Buffers& buffers) {
+  constexpr float kSteep = 0.6f;  // of the camera: the ground is no strip any more
+  if (buffers.to_eye.y > kSteep) return std::nullopt;
+  const int width = buffers.width;
+  int low = -1, left = width, right = -1;
+  double weight = 0, moment = 0;
+  for (int y = buffers.height - 1; y >= 0; --y) {
+    for (int x = 0; x < width; ++x) {
+      const std::size_t i = static_cast<std::size_t>(y) * width + x;
+      if (buffers.object[i] == render::Object::paper) continue;
+      left = std::min(left, x), right = std::max(right, x);
+      if (buffers.object[i] != render::Object::wood) continue;
+      low = std::max(low, y);
+      if (y < low - buffers.height / 100) continue;
+      weight += 1, moment += x + 0.5;
+    }
+  }
+  if (low < 0) return std::nullopt;
+  return Foot{static_cast<float>(moment / weight), static_cast<float>(low),
+              0.5f * static_cast<float>(right - left + 1)};
 }
 
 /// One picture while it is painted.
@@ -43,17 +73,27 @@ class Painting {
     const Leaves strokes = look_at_leaves(leaves, outline);
 
     const float melting_width = style_.melting_width * unit_;
-    const Plane visible =
+    const Plane sharply_visible =
         passes_.visibility(seen, around_, passes_.blur(seen.seen, melting_width),
                            passes_.blur(seen.far, melting_width), style_.melting);
+    const Plane visible = passes_.blur(sharply_visible, style_.melting_softness * unit_);
     const Plane reserved = passes_.mask(everywhere, visible, style_.gaps);
 
+    if (const std::optional<Foot> foot = find_foot(buffers_)) {
+      const float reach = style_.shadow_reach * foot->crown;
+      lay(style_.ground,
+          passes_.ground(unit_, {foot->x + 0.3f * reach, foot->y}, {reach, 0.14f * reach},
+                         style_.seed),
+          everywhere);
+    }
     // Wood first: foliage is painted over its edges.
-    const Plane bark = lay(style_.wood, blurred(wood, style_.wood), passes_.mask(everywhere, visible, 0.6f));
+    const Plane bark =
+        lay(style_.wood, blurred(wood, style_.wood), passes_.mask(everywhere, visible, 0.6f));
     lay(style_.wood_shadow, dark(seen, style_.wood_shadow), bark);
 
     const Plane crown = lay(style_.ambient, outline, reserved);
-    const Plane inside = passes_.mask(crown, visible, 1);
+    const Plane bare = passes_.darkness(wood, everywhere);
+    const Plane inside = passes_.mask(passes_.mask(crown, visible, 1), bare, 1);
     lay(style_.tone, dark(seen, style_.tone), inside);
     run_together(crown);
     lay(style_.shadow, dark(seen, style_.shadow), inside);
@@ -93,7 +133,7 @@ class Painting {
     const Plane alpha = passes_.layer(rho, within, paper_, flow_, edge);
     const Plane around = passes_.blur(alpha, style_.edge_width * unit_);
     const Plane density = passes_.darken_edges(alpha, around, wash.edge_darkening);
-    passes_.dilute(density, flow_.turbulence, dark_around_, style_.turbulence,
+    passes_.dilute(density, flow_.turbulence, dark_around_, style_.turbulence, style_.backruns,
                    &wash == &style_.ambient ? style_.dilution : 0);
     passes_.granulate(density, paper_, wash.granulation * style_.roughness, style_.dispersion);
     const Vec3f cool = absorbance(wash.cool), warm = absorbance(wash.warm);
@@ -123,8 +163,12 @@ class Painting {
     const Room room{buffers_.width, buffers_.height, outline_here, dark_here, buffers_.depth};
     const Brush brush{.size = style_.leaf_size,
                       .least = style_.leaf_width * unit_,
+                      .most = 2 * style_.leaf_width * unit_,
                       .tolerance = style_.melting};
-    flow_.breaking = passes_.blur(passes_.upload(break_edges(leaves, room, {.size = 1.8f * brush.size, .least = 1.6f * brush.least, .tolerance = brush.tolerance})), std::max(0.7f, 0.0008f * unit_));
+    Brush broad = brush;
+    broad.size *= kBroad, broad.least *= kBroad, broad.most *= kBroad;
+    flow_.breaking = passes_.blur(passes_.upload(break_edges(leaves, room, broad)),
+                                  std::max(0.7f, kSoftness * unit_));
     if (style_.detail <= 0) return {};
     return {passes_.upload(paint_leaves(leaves, room, brush, style_.detail))};
   }

@@ -108,8 +108,8 @@ struct Passes::Impl {
   void blur_turning(const Plane& in, int in_pitch, int in_rows, int rows_within,
                     const cl::Buffer& weights, int reach, const Plane& out) {
     launch("blur", cl::NDRange(in_pitch / lanes, in_rows / lanes), cl::NDRange(1, 1), in, in_pitch,
-           rows_within, weights, reach,
-           cl::Local((lanes + 2 * reach) * lanes * sizeof(float)), out, in_rows);
+           rows_within, weights, reach, cl::Local((lanes + 2 * reach) * lanes * sizeof(float)), out,
+           in_rows);
   }
 };
 
@@ -121,7 +121,7 @@ Passes::Passes(Device& device, int width, int height)
        std::string(kernel_source_watercolour_noise)},
       "-cl-std=CL1.2 -DLANES=" + std::to_string(d.lanes));
   for (const char* name :
-       {"paper", "flow", "blur", "see", "pad", "darkness", "visibility", "mask", "layer",
+       {"paper", "ground", "flow", "blur", "see", "pad", "darkness", "visibility", "mask", "layer",
         "darken_edges", "dilute", "granulate", "glaze", "wet", "bleed", "develop"}) {
     d.kernels.emplace(name, cl::Kernel(program, name));
   }
@@ -175,6 +175,12 @@ SeenPlanes Passes::see(const render::Buffers& buffers, float sky, float wrap) {
            d.pitch, object, normal, position, depth, key, open, l.x, l.y, l.z, sky, wrap, out.seen,
            out.light, out.far, out.x, out.y, out.z);
   d.engine.queue.finish();  // the host's buffers are the caller's again
+  return out;
+}
+
+Plane Passes::ground(float size, Vec2f foot, Vec2f reach, std::uint32_t seed) {
+  Plane out = impl_->plane();
+  impl_->over_plane("ground", impl_->pitch, size, foot.x, foot.y, reach.x, reach.y, seed, out);
   return out;
 }
 
@@ -240,8 +246,8 @@ Plane Passes::darken_edges(const Plane& alpha, const Plane& around, float amount
 }
 
 void Passes::dilute(const Plane& density, const Plane& turbulence, const Plane& dark,
-                    float turbulent, float dilution) {
-  impl_->over_plane("dilute", density, turbulence, dark, turbulent, dilution);
+                    float turbulent, float backruns, float dilution) {
+  impl_->over_plane("dilute", density, turbulence, dark, turbulent, backruns, dilution);
 }
 
 void Passes::granulate(const Plane& density, const PaperPlanes& paper, float granulation,

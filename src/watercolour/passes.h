@@ -60,6 +60,8 @@ class Passes {
   /// `cells` of its grain in `period` pixels, after which it repeats.
   PaperPlanes paper(float period, int cells, std::uint32_t seed);
   SeenPlanes see(const render::Buffers& buffers, float sky, float wrap);
+  /// A patch around `foot`, 1 in its middle.
+  Plane ground(float size, Vec2f foot, Vec2f reach, std::uint32_t seed);
   FlowPlanes flow(const SeenPlanes& around, float eddies, float leaves, std::uint32_t seed);
 
   /// Gaussian, `sigma` in pixels.
@@ -73,7 +75,7 @@ class Passes {
               const FlowPlanes& flow, const Edge& edge);
   Plane darken_edges(const Plane& alpha, const Plane& around, float amount);
   void dilute(const Plane& density, const Plane& turbulence, const Plane& dark, float turbulent,
-              float dilution);
+              float backruns, float dilution);
   void granulate(const Plane& density, const PaperPlanes& paper, float granulation,
                  float dispersion);
   void glaze(const Plane& density, const Plane& warmth, const Pigments& pigments, float warm_cool,

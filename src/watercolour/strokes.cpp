@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 
 #include "render/sampling.h"
@@ -10,6 +11,7 @@
 namespace leafhull::watercolour {
 namespace {
 
+constexpr int kMostOfSpray = 16;
 constexpr float kLeastWidth = 0.38f;  // of a stroke's length: leaves on edge are not hairs
 
 float smooth(float low, float high, float x) {
@@ -17,25 +19,19 @@ float smooth(float low, float high, float x) {
   return t * t * (3 - 2 * t);
 }
 
+float unit(std::uint32_t bits) { return static_cast<float>(bits >> 8) * 0x1p-24f; }
+
 /// One of a leaf's chances, 0..1.
-float chance(const Stroke& stroke, std::uint32_t which) {
-  return static_cast<float>(render::hash(stroke.leaf * 3 + which) >> 8) * 0x1p-24f;
+float chance(std::uint32_t leaf, std::uint32_t which) {
+  return unit(render::hash(3 * leaf + which));
 }
 
 /// A leaf's outline: two arcs that meet in its tips.
 struct Dab {
   Vec2f centre, along;  ///< along: unit
   float length, width;  ///< half of each
-
-  Dab(const Stroke& stroke, const Brush& brush) : centre(stroke.centre) {
-    Vec2f major = stroke.half_major, minor = stroke.half_minor;
-    const auto norm = [](Vec2f v) { return std::hypot(v.x, v.y); };
-    if (norm(minor) > norm(major)) std::swap(major, minor);
-    const float norm_major = norm(major);
-    along = norm_major > 0 ? Vec2f{major.x / norm_major, major.y / norm_major} : Vec2f{1, 0};
-    length = std::max(brush.size * norm_major, brush.least);
-    width = std::max(brush.size * norm(minor), kLeastWidth * length);
-  }
+  float depth;
+  std::uint32_t leaf;
 
   /// How much of the pixel around (x, y) it covers, about.
   float coverage(float x, float y) const {
@@ -46,13 +42,49 @@ struct Dab {
   }
 };
 
-/// The pixel under a stroke's centre if the stroke is in the picture and not hidden.
-std::optional<std::size_t> seen_at(const Stroke& stroke, const Room& room, const Brush& brush) {
-  const Vec2f c = stroke.centre;
+float norm(Vec2f v) { return std::hypot(v.x, v.y); }
+
+/// The dabs of a stroke: one, or for a card larger than the brush a spray over the card.
+template <class Take>
+void each_dab(const Stroke& stroke, const Brush& brush, Take&& take) {
+  Vec2f major = stroke.half_major, minor = stroke.half_minor;
+  if (norm(minor) > norm(major)) std::swap(major, minor);
+  const float length = norm(major), width = norm(minor);
+  if (!(length > 0 && length < HUGE_VALF)) return;
+  const Vec2f along{major.x / length, major.y / length};
+  const float half = std::clamp(brush.size * length, brush.least, brush.most);
+  const float half_width = std::clamp(brush.size * width, kLeastWidth * half, half);
+  const float cards = brush.size * length / half;
+  if (cards <= 1) {
+    take(Dab{stroke.centre, along, half, half_width, stroke.depth, stroke.leaf});
+    return;
+  }
+  const int count = std::min(kMostOfSpray, static_cast<int>(std::ceil(cards * cards)));
+  for (int i = 0; i < count; ++i) {
+    const std::uint32_t leaf = render::hash(stroke.leaf * kMostOfSpray + i);
+    const float r = std::sqrt(unit(render::hash(leaf + 1)));
+    const float angle = 2 * std::numbers::pi_v<float> * unit(render::hash(leaf + 2));
+    const float s = r * std::cos(angle), t = r * std::sin(angle);
+    const float turn = 2 * unit(render::hash(leaf + 3)) - 1;
+    const Vec2f centre{stroke.centre.x + s * major.x + t * minor.x,
+                       stroke.centre.y + s * major.y + t * minor.y};
+    const float c = std::cos(turn), d = std::sin(turn);
+    take(Dab{centre,
+             {c * along.x - d * along.y, d * along.x + c * along.y},
+             half,
+             kLeastWidth * half,
+             stroke.depth,
+             leaf});
+  }
+}
+
+/// The pixel under a dab's centre if that is in the picture and not hidden.
+std::optional<std::size_t> seen_at(const Dab& dab, const Room& room, const Brush& brush) {
+  const Vec2f c = dab.centre;
   const auto width = static_cast<float>(room.width), height = static_cast<float>(room.height);
   if (!(c.x >= 0 && c.y >= 0 && c.x < width && c.y < height)) return std::nullopt;
   const std::size_t at = static_cast<std::size_t>(c.y) * room.width + static_cast<std::size_t>(c.x);
-  if (!(stroke.depth <= room.depth[at] + brush.tolerance)) return std::nullopt;
+  if (!(dab.depth <= room.depth[at] + brush.tolerance)) return std::nullopt;
   return at;
 }
 
@@ -81,10 +113,13 @@ std::vector<float> break_edges(std::span<const Stroke> strokes, const Room& room
                                const Brush& brush) {
   std::vector<float> breaking(room.depth.size());
   for (const Stroke& stroke : strokes) {
-    if (!seen_at(stroke, room, brush)) continue;
-    const float turn = 2 * chance(stroke, 2) - 1, gain = std::copysign(0.4f + 0.6f * std::abs(turn), turn);
-    cover(Dab(stroke, brush), room, [&](std::size_t pixel, float c) {
-      if (c * std::abs(gain) > std::abs(breaking[pixel])) breaking[pixel] = c * gain;
+    each_dab(stroke, brush, [&](const Dab& dab) {
+      if (!seen_at(dab, room, brush)) return;
+      const float turn = 2 * chance(dab.leaf, 2) - 1;
+      const float gain = std::copysign(0.4f + 0.6f * std::abs(turn), turn);
+      cover(dab, room, [&](std::size_t pixel, float c) {
+        if (c * std::abs(gain) > std::abs(breaking[pixel])) breaking[pixel] = c * gain;
+      });
     });
   }
   return breaking;
@@ -94,17 +129,19 @@ std::vector<float> paint_leaves(std::span<const Stroke> strokes, const Room& roo
                                 const Brush& brush, float detail) {
   std::vector<float> covered(room.depth.size());
   for (const Stroke& stroke : strokes) {
-    if (chance(stroke, 0) >= detail) continue;
-    const std::optional<std::size_t> at = seen_at(stroke, room, brush);
-    if (!at) continue;
-    const float edge = 1 - smooth(0.5f, 0.98f, room.outline[*at]);
-    const float light = smooth(0.3f, 0.7f, 1 - room.dark[*at]);
-    const float wanted = detail * std::max(edge, 0.35f * light);
-    const float fading = smooth(0, 0.1f, wanted - chance(stroke, 0));
-    const float opacity = fading * (0.6f + 0.4f * chance(stroke, 1));
-    if (opacity <= 0) continue;
-    cover(Dab(stroke, brush), room, [&](std::size_t pixel, float c) {
-      covered[pixel] = std::max(covered[pixel], opacity * c);
+    each_dab(stroke, brush, [&](const Dab& dab) {
+      const float rank = chance(dab.leaf, 0);
+      if (rank >= detail) return;
+      const std::optional<std::size_t> at = seen_at(dab, room, brush);
+      if (!at) return;
+      const float edge = 1 - smooth(0.5f, 0.98f, room.outline[*at]);
+      const float light = smooth(0.3f, 0.7f, 1 - room.dark[*at]);
+      const float wanted = detail * std::max(edge, 0.35f * light);
+      const float opacity = smooth(0, 0.1f, wanted - rank) * (0.6f + 0.4f * chance(dab.leaf, 1));
+      if (opacity <= 0) return;
+      cover(dab, room, [&](std::size_t pixel, float c) {
+        covered[pixel] = std::max(covered[pixel], opacity * c);
+      });
     });
   }
   return covered;

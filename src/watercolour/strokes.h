@@ -27,6 +27,7 @@ struct Room {
 struct Brush {
   float size = 1;       ///< of a stroke, in leaves
   float least = 0;      ///< of the half-length, pixels
+  float most = 0;       ///< of the half-length; a larger card is a spray of leaves
   float tolerance = 0;  ///< how far behind the surface a leaf is still painted
 };
 

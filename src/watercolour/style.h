@@ -38,6 +38,7 @@ struct Style {
   float dilution = 0.6f;     ///< how much the lights are thinned towards the paper
   float warm_cool = 0.6f;    ///< how far colours lean to warm and cool across the crown
   float turbulence = 0.35f;  ///< unevenness of the pigment in the water
+  float backruns = 0;        ///< fronts of pigment where water flowed back
   float eddies = 7;          ///< of the turbulence, across the scene
   float dispersion = 0.1f;   ///< specks of pigment
   float bleeding = 0.5f;     ///< how much wet patches run into each other
@@ -45,8 +46,11 @@ struct Style {
   float edge_width = 0.0035f;  ///< of dark rims
   float wobble = 0.05f;        ///< how an edge sways
   float melting = 0.05f;       ///< how far behind another a mass has melted away; in the scene
-  float melting_width = 0.016f;
+  float melting_width = 0.014f;
+  float melting_softness = 0;  ///< of the edges of masses in front
   float gaps = 0.3f;           ///< paper left free behind a mass in front
+
+  float shadow_reach = 0.6f;  ///< of the wash at the foot, in half crowns
 
   float detail = 0.4f;        ///< how many leaves are painted one by one
   float leaf_size = 1;        ///< of their strokes, in leaves
