@@ -1,0 +1,444 @@
+# SPDX-License-Identifier: Apache-2.0
+import json
+import os
+import resource
+import shutil
+import signal
+import struct
+import subprocess
+import time
+import unittest
+
+import glb
+import png
+from command import ASH, CommandTest
+
+DRAFT = ("--preset", "draft")
+SMALL = (*DRAFT, "--size", "96x96")
+MESH = ("--surface", "mesh")
+NO_PROGRAMS = {"PATH": "/nonexistent"}
+WITH_FFMPEG = unittest.skipUnless(shutil.which("ffmpeg"), "ffmpeg is missing")
+
+WHITE = (255, 255, 255)
+
+
+def is_green(pixel):
+    return pixel[1] > pixel[0] and pixel[1] > pixel[2]
+
+
+class Render(CommandTest):
+    def setUp(self):
+        super().setUp()
+        self.picture = self.out / "picture.png"
+
+    def command(self, subject, flags):
+        size = DRAFT if "--size" in flags else SMALL
+        return ("render", subject, *size, "-o", self.picture, *flags)
+
+    def render(self, *flags, subject=ASH, **options):
+        return self.succeed(*self.command(subject, flags), **options)
+
+    def pixels(self, *flags, **options):
+        self.render(*flags, **options)
+        return png.pixels(self.picture.read_bytes())
+
+    def bytes(self, *flags, **options):
+        self.render(*flags, **options)
+        return self.picture.read_bytes()
+
+    def refuse(self, words, *flags, code=2, subject=ASH, **options):
+        self.fail_with(code, words, *self.command(subject, flags), **options)
+
+    def camera(self, **camera):
+        return self.input("camera.json", json.dumps(camera).encode())
+
+    def bounds(self):
+        box = json.loads(self.succeed("inspect", ASH, "--json").stdout)["leaves"]["bounds"]
+        return box["low"], box["high"]
+
+
+class Pictures(Render):
+    def test_a_tree_on_white_paper(self):
+        for surface in ("direct", "mesh"):
+            width, height, rows = self.pixels("--surface", surface)
+            self.assertEqual((width, height), (96, 96))
+            for corner in (rows[0][0], rows[0][-1], rows[-1][0], rows[-1][-1]):
+                self.assertEqual(corner, WHITE)
+            seen = [pixel for row in rows for pixel in row if pixel != WHITE]
+            self.assertGreater(len(seen), 96 * 96 // 10)
+            self.assertGreater(sum(map(is_green, seen)), len(seen) // 2)
+            foot = [pixel for row in rows[84:90] for pixel in row if pixel != WHITE]
+            self.assertTrue(foot, "the trunk is in the picture")
+            self.assertFalse(any(map(is_green, foot)))
+        self.assertEqual(self.written(), ["picture.png"])
+
+    def test_looks(self):
+        pictures = {
+            look: self.pixels("--look", look, *MESH)[2]
+            for look in ("phong", "watercolour", "normals", "depth")
+        }
+        seen = {(x, y) for y in range(96) for x in range(96) if pictures["phong"][y][x] != WHITE}
+        for look in ("watercolour", "normals"):
+            colours = {pictures[look][y][x] for x, y in seen}
+            self.assertGreater(len(colours), 100, look)
+        self.assertTrue(all(len(set(pixel)) == 1 for row in pictures["depth"] for pixel in row))
+        paper = pictures["watercolour"][2][2]
+        self.assertGreater(min(paper), 200, "paper stays light")
+
+    def test_any_size(self):
+        for size in ("1x1", "7x3", "40x100"):
+            for look in ("phong", "watercolour"):
+                width, height, _ = self.pixels("--size", size, "--look", look, *MESH)
+                self.assertEqual(f"{width}x{height}", size)
+
+    def test_the_same_bytes_again_and_with_any_threads(self):
+        for flags in (("--look", "watercolour"), MESH, ("--look", "normals")):
+            first = self.bytes(*flags, "--threads", "2")
+            self.assertEqual(self.bytes(*flags, "--threads", "2"), first)
+            self.assertEqual(self.bytes(*flags, "--threads", "1"), first)
+
+    def test_viewpoints(self):
+        pictures = {self.bytes("--camera", name, *MESH) for name in ("front", "three-quarter", "top")}
+        self.assertEqual(len(pictures), 3)
+        rows = self.pixels("--camera", "top", *MESH)[2]
+        seen = [pixel for row in rows for pixel in row if pixel != WHITE]
+        self.assertGreater(sum(map(is_green, seen)), 0.9 * len(seen), "the crown hides the trunk")
+
+    def test_shape_options_count(self):
+        thin = self.bytes("--style", "thin", *MESH)
+        self.assertNotEqual(self.bytes("--style", "fat", *MESH), thin)
+        self.assertNotEqual(self.bytes("--style", "thin"), self.bytes("--style", "fat"))
+
+    def test_buffers_as_exr(self):
+        exr = self.out / "buffers.exr"
+        self.render("-o", exr, *MESH)
+        data = exr.read_bytes()
+        self.assertEqual(data[:4], b"\x76\x2f\x31\x01")
+        header = data[: data.index(b"screenWindowWidth")]
+        for channel in (b"A", b"B", b"G", b"N.X", b"P.Z", b"R", b"Z", b"id", b"key", b"open"):
+            self.assertIn(b"\0" + channel + b"\0", header)
+        self.assertEqual(self.written(), ["buffers.exr", "picture.png"])
+
+    def test_what_it_says(self):
+        self.assertEqual(self.render("-q", *MESH).stderr, "")
+        said = self.render(*MESH)
+        self.assertEqual(said.stdout, "")
+        self.assertEqual(len(said.stderr.splitlines()), 1)
+        self.assertIn("picture.png", said.stderr)
+        steps = [line.split()[0] for line in self.render("-v").stderr.splitlines()]
+        for step in ("field", "rays", "paint", "write"):
+            self.assertIn(step, steps)
+
+
+class Cameras(Render):
+    def test_a_file(self):
+        low, high = self.bounds()
+        middle = [(a + b) / 2 for a, b in zip(low, high)]
+        far = [middle[0], middle[1], middle[2] + 5 * (high[1] - low[1])]
+        file = self.camera(eye=far, target=middle, angle=20)
+        rows = self.pixels("--camera", file, *MESH)[2]
+        self.assertNotEqual(rows[48][48], WHITE)
+        node = self.input(
+            "camera.glb",
+            glb.pack(
+                {
+                    "asset": {"version": "2.0"},
+                    "nodes": [{"camera": 0, "translation": far}],
+                    "cameras": [
+                        {"type": "perspective", "perspective": {"yfov": 0.3490658503988659, "znear": 1}}
+                    ],
+                }
+            ),
+        )
+        self.assertEqual(self.pixels("--camera", node, *MESH)[2], rows)
+
+    def test_inside_the_crown(self):
+        low, high = self.bounds()
+        eye = [(a + b) / 2 for a, b in zip(low, high)]
+        file = self.camera(eye=eye, target=[eye[0] + 1, eye[1], eye[2]], angle=90)
+        for flags in ((), MESH, ("--look", "watercolour"), ("--look", "depth")):
+            result = self.render("--camera", file, *flags)
+            self.assertNotIn("nothing is in view", result.stderr)
+
+    def test_nothing_in_view(self):
+        file = self.camera(eye=[0, 0, 1e5], target=[0, 0, 2e5])
+        for flags in ((), MESH):
+            result = self.render("--camera", file, *flags)
+            self.assertIn("warning: nothing is in view", result.stderr)
+            rows = png.pixels(self.picture.read_bytes())[2]
+            self.assertEqual({pixel for row in rows for pixel in row}, {WHITE})
+        result = self.render("--camera", file, "--look", "watercolour")
+        self.assertIn("warning: nothing is in view", result.stderr)
+
+    def test_refusals(self):
+        self.refuse(["'frnt'", "Did you mean front?"], "--camera", "frnt")
+        self.refuse(["no.json", "cannot be read"], "--camera", "no.json", code=3)
+        folder = self.folder
+        self.refuse([str(folder), "cannot be read"], "--camera", folder, code=3)
+        for words, camera in (
+            (["JSON"], b"not JSON"),
+            (["eye", "missing"], b'{"target": [0, 0, 0]}'),
+            (["target"], b'{"eye": [1, 2, 3], "target": [1, 2, 3]}'),
+            (["up"], b'{"eye": [0, 9, 0], "target": [0, 0, 0]}'),
+            (["angle"], b'{"eye": [0, 0, 9], "target": [0, 0, 0], "angle": 180}'),
+            (["fov"], b'{"eye": [0, 0, 9], "target": [0, 0, 0], "fov": 30}'),
+        ):
+            file = self.input("camera.json", camera)
+            self.refuse(["camera.json", *words], "--camera", file, code=3)
+        self.refuse(["perspective camera"], "--camera", self.tree, code=3)
+
+
+class Subjects(Render):
+    def setUp(self):
+        super().setUp()
+        shapes = self.folder / "shapes"
+        shapes.mkdir()
+        self.glb, self.obj, self.field = (shapes / f"ash.{kind}" for kind in ("glb", "obj", "vdb"))
+        self.succeed("extract", ASH, *DRAFT, "-o", self.glb, "-o", self.obj, "-o", self.field)
+
+    def test_shapes_are_told_from_trees(self):
+        first = self.pixels(subject=self.glb)
+        for shape in (self.glb, self.obj):
+            result = self.render(subject=shape)
+            self.assertIn(f"{shape} is drawn as an abstract shape", result.stderr)
+            rows = png.pixels(self.picture.read_bytes())[2]
+            self.assertTrue(any(is_green(pixel) for row in rows for pixel in row))
+            self.assertEqual(rows, first[2])
+        self.assertNotIn("abstract shape", self.render("--as", "shape", subject=self.glb).stderr)
+        self.assertNotIn("abstract shape", self.render(*MESH).stderr)
+        as_shape = self.bytes("--as", "shape")
+        self.assertNotEqual(as_shape, self.bytes(*MESH), "leaves, not their shape")
+
+    def test_a_shape_taken_for_a_tree_has_no_leaves(self):
+        self.refuse(["no leaves", "--leaves"], "--as", "tree", subject=self.obj, code=3)
+
+    def test_a_shape_has_no_density(self):
+        self.refuse(["--surface direct", "density"], "--surface", "direct", subject=self.glb)
+        self.refuse(["--figure17", "tree"], "--figure17", subject=self.glb)
+        result = self.render("--style", "thin", subject=self.glb)
+        self.assertIn("warning: --style has no effect", result.stderr)
+
+    def test_a_density(self):
+        for flags in ((), MESH, ("--look", "watercolour")):
+            rows = self.pixels(*flags, subject=self.field)[2]
+            self.assertTrue(any(is_green(pixel) for row in rows for pixel in row))
+        mesh = {pixel == WHITE for row in self.pixels(*MESH, subject=self.field)[2] for pixel in row}
+        self.assertEqual(mesh, {True, False})
+        result = self.render("--coverage", "0.5", *MESH, subject=self.field)
+        self.assertIn("warning: --coverage has no effect", result.stderr)
+
+    def test_a_density_that_cannot_be_drawn(self):
+        self.refuse(["was sampled for T"], "--threshold", "50", subject=self.field)
+        self.refuse(["no.vdb"], subject="no.vdb", code=3)
+        broken = self.input("broken.vdb", self.field.read_bytes()[:5000])
+        self.refuse(["broken.vdb"], subject=broken, code=3)
+
+    def test_direct_and_mesh_agree(self):
+        for subject in (ASH, self.field):
+            direct = self.pixels("--surface", "direct", subject=subject)[2]
+            mesh = self.pixels(*MESH, subject=subject)[2]
+            both = [(a != WHITE, b != WHITE) for p, q in zip(direct, mesh) for a, b in zip(p, q)]
+            common = sum(a and b for a, b in both) / sum(a or b for a, b in both)
+            self.assertGreater(common, 0.97, subject)
+
+    def test_an_empty_surface(self):
+        for flags in ((), MESH):
+            self.refuse(["surface is empty"], "--threshold", "1e9", *flags, code=6)
+
+
+class Watercolours(Render):
+    def test_styles(self):
+        pictures = {
+            self.bytes("--look", "watercolour", *MESH, "--watercolour-style", style)
+            for style in ("classic", "wet", "dry")
+        }
+        self.assertEqual(len(pictures), 3)
+        default = self.bytes("--look", "watercolour", *MESH)
+        self.assertIn(default, pictures)
+        file = self.input("own.json", b'{"base": "classic", "paper": "#ff0000"}')
+        rows = self.pixels("--look", "watercolour", *MESH, "--watercolour-style", file)[2]
+        red, green, _ = rows[2][2]
+        self.assertGreater(red, green + 100)
+
+    def test_detail(self):
+        paint = ("--look", "watercolour", *MESH)
+        self.assertNotEqual(self.bytes(*paint, "--detail", "0"), self.bytes(*paint, "--detail", "1"))
+
+    def test_without_effect(self):
+        result = self.render(*MESH, "--detail", "1", "--watercolour-style", "wet")
+        for flag in ("--detail", "--watercolour-style"):
+            self.assertIn(f"warning: {flag} has no effect with --look phong", result.stderr)
+
+    def test_refusals(self):
+        style = "--watercolour-style"
+        self.refuse(["'clasic'", "Did you mean classic?", "classic, wet, dry"], style, "clasic")
+        self.refuse(["no.json"], style, "no.json", code=3)
+        for words, text in (
+            (["own.json"], b"{"),
+            (["own.json", "wetnes"], b'{"wetnes": 1}'),
+            (["own.json", "bleeding"], b'{"bleeding": "much"}'),
+            (["own.json", "shadow"], b'{"shadow": {"wetness": 99}}'),
+        ):
+            self.refuse(words, style, self.input("own.json", text))
+        self.refuse(["--detail '2'", "from 0 to 1"], "--detail", "2")
+        self.refuse(["--detail 'x'", "not a number"], "--detail", "x")
+
+
+class Turntables(Render):
+    def frames(self, count):
+        return [f"picture-{i:04}.png" for i in range(1, count + 1)]
+
+    def test_frames(self):
+        result = self.render("--turntable", "4", *MESH, env=NO_PROGRAMS)
+        self.assertIn("no film: ffmpeg is not on the PATH", result.stderr)
+        self.assertEqual(self.written(), self.frames(4))
+        pictures = [(self.out / name).read_bytes() for name in self.frames(4)]
+        self.assertEqual(len(set(pictures)), 4)
+        for data in pictures:
+            rows = png.pixels(data)[2]
+            for i in range(96):
+                for pixel in (rows[0][i], rows[-1][i], rows[i][0], rows[i][-1]):
+                    self.assertEqual(pixel, WHITE, "every frame holds all of it")
+        self.render("--turntable", "2", *MESH, env=NO_PROGRAMS)
+        halves = [(self.out / name).read_bytes() for name in self.frames(2)]
+        self.assertEqual(halves, pictures[::2])
+
+    def test_frames_of_an_earlier_turntable_are_named(self):
+        self.render("--turntable", "3", *MESH, env=NO_PROGRAMS)
+        result = self.render("--turntable", "2", *MESH, env=NO_PROGRAMS)
+        self.assertIn("warning: " + str(self.out / "picture-0003.png"), result.stderr)
+
+    def test_buffers(self):
+        self.succeed(
+            "render", ASH, *SMALL, *MESH, "--turntable", "2", "-o", self.out / "buffers.exr"
+        )
+        self.assertEqual(self.written(), ["buffers-0001.exr", "buffers-0002.exr"])
+
+    @WITH_FFMPEG
+    def test_a_film_comes_with_the_frames(self):
+        self.render("--turntable", "3", "--size", "95x61", *MESH)
+        self.assertEqual(self.written(), [*self.frames(3), "picture.mp4"])
+        film = (self.out / "picture.mp4").read_bytes()
+        self.assertEqual(film[4:8], b"ftyp")
+        at = film.index(b"avc1", film.index(b"stsd"))  # H.264; its width and height follow
+        self.assertEqual(struct.unpack_from(">HH", film, at + 28), (96, 62))
+
+    @WITH_FFMPEG
+    def test_a_film_alone(self):
+        film, webp = self.out / "turn.mp4", self.out / "turn.webp"
+        self.succeed(
+            "render", ASH, *SMALL, *MESH, "--turntable", "3", "-o", film, "-o", webp
+        )
+        self.assertEqual(self.written(), ["turn.mp4", "turn.webp"])
+        self.assertEqual(webp.read_bytes().count(b"ANMF"), 3)
+
+    def test_a_named_film_needs_ffmpeg(self):
+        for name in ("turn.mp4", "turn.webp"):
+            words = ["ffmpeg is missing", name]
+            command = ("render", "no.glb", "--turntable", "3", "-o", self.out / name)
+            self.fail_with(5, words, *command, env=NO_PROGRAMS)
+
+    @WITH_FFMPEG
+    def test_a_film_that_fails(self):
+        broken = self.folder / "bin"
+        broken.mkdir()
+        program = broken / "ffmpeg"
+        program.write_text("#!/bin/sh\necho broken codec >&2\nexit 1\n")
+        program.chmod(0o755)
+        env = {"PATH": f"{broken}:{os.environ['PATH']}"}
+        result = self.render("--turntable", "2", *MESH, env=env)
+        self.assertIn("broken codec", result.stderr)
+        self.assertEqual(self.written(), self.frames(2))
+        for name in self.frames(2):
+            (self.out / name).unlink()
+        command = ("render", ASH, *SMALL, *MESH, "--turntable", "2", "-o", self.out / "turn.mp4")
+        self.fail_with(5, ["turn.mp4", "broken codec"], *command, env=env)
+
+    def test_an_interrupt_leaves_whole_frames(self):
+        flags = (*SMALL, *MESH, "--turntable", "5000", "-o", self.picture)
+        process = subprocess.Popen(
+            [os.environ["LEAFHULL"], "render", str(ASH), *map(str, flags)],
+            stderr=subprocess.PIPE,
+        )
+        deadline = time.monotonic() + 60
+        while len(self.written()) < 5 and time.monotonic() < deadline:
+            time.sleep(0.02)
+        process.send_signal(signal.SIGTERM)
+        process.communicate(timeout=60)
+        self.assertEqual(process.returncode, -signal.SIGTERM)
+        written = self.written()
+        self.assertEqual(written, self.frames(len(written)))
+        for name in written:
+            self.assertEqual(png.pixels((self.out / name).read_bytes())[:2], (96, 96))
+
+    def test_refusals(self):
+        for frames in ("0", "-1", "1.5", "x", "36001"):
+            self.refuse([f"--turntable '{frames}'", "from 1 to 36000"], "--turntable", frames)
+
+
+class Plate(Render):
+    def test_figure17(self):
+        width, height, rows = self.pixels("--figure17", "--size", "64x64", *MESH)
+        self.assertGreater(width, 128)
+        self.assertGreater(height, 3 * 64)
+        self.assertTrue(any(is_green(pixel) for row in rows for pixel in row))
+        self.assertEqual(self.written(), ["picture.png"])
+
+    def test_contradictions(self):
+        self.refuse(["--figure17", "--turntable"], "--figure17", "--turntable", "3")
+        self.refuse(["--figure17", "--look depth"], "--figure17", "--look", "depth")
+        self.refuse(["one .png"], "--figure17", "-o", self.out / "a.exr")
+        result = self.render("--figure17", "--size", "32x32", *MESH, "--style", "painterly")
+        self.assertIn("--style has no effect", result.stderr)
+
+
+class Refusals(Render):
+    def test_sizes(self):
+        for size in ("0x96", "96x0", "-1x96", "96", "96x", "x", "9.5x9", "axb", "16385x1", "1x2x3"):
+            self.refuse(["--size"], "--size", size)
+        self.refuse(["WIDTHxHEIGHT"], "--size", "96")
+
+    def test_a_size_past_the_memory(self):
+        limit = 4 << 30
+        self.refuse(
+            ["16384x8192", "GiB", "fits", "--size"],
+            *("--size", "16384x8192"),
+            preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (limit, limit)),
+        )
+
+    def test_outputs(self):
+        self.fail_with(2, ["no output", "-o picture.png"], "render", ASH)
+        for name, words in (
+            ("picture", ["no extension"]),
+            ("picture.jpg", [".jpg", ".png"]),
+            ("picture.mp4", ["film", "--turntable"]),
+            ("picture.webp", ["film", "--turntable"]),
+        ):
+            self.fail_with(2, words, "render", ASH, "-o", self.out / name)
+        self.refuse(["same file"], "-o", self.out / "." / "picture.png")
+        tree = self.input("tree.png", self.tree.read_bytes())
+        self.fail_with(2, ["input itself"], "render", tree, "-o", tree)
+        self.assertEqual(tree.read_bytes(), self.tree.read_bytes())
+        missing = self.out / "missing" / "picture.png"
+        self.fail_with(5, ["missing"], "render", "no.glb", "-o", missing)
+
+    def test_names(self):
+        self.refuse(["'fong'", "Did you mean phong?"], "--look", "fong")
+        self.refuse(["direct, mesh"], "--surface", "polygons")
+        self.refuse(["tree, shape"], "--as", "bush")
+        self.refuse(["--surfce", "Did you mean --surface?"], "--surfce", "mesh")
+        self.refuse(["--quiet", "--verbose"], "-q", "-v")
+        self.fail_with(3, ["no.glb"], "render", "no.glb", "-o", self.picture)
+        self.fail_with(2, ["no TREE"], "render", "-o", self.picture)
+
+    def test_help(self):
+        page = self.succeed("render", "--help").stdout
+        for flag in (
+            "--output", "--look", "--size", "--camera", "--turntable", "--surface",
+            "--watercolour-style", "--detail", "--as", "--figure17", "--style", "--device",
+        ):  # fmt: skip
+            self.assertRegex(page, rf"(?m)^  (-\w, )?{flag}\b")
+
+
+if __name__ == "__main__":
+    unittest.main()
