@@ -6,7 +6,7 @@
 // SAMPLED is defined from its samples, trilinearly. Along a ray xi of a kernel is a parabola
 // (Kanamori et al., "GPU-based Fast Ray Casting for a Large Number of Metaballs", 2008, call what
 // is near a ray its active list); N is summed at STEPS points of a ray's way through a brick, and
-// the piece where it passes T is cut again, until it is shorter than 0.005 voxels.
+// the piece where it passes T is cut again, until it is short.
 //
 // On a CPU a work-item takes LANES = 16 rays, neighbours that meet the same bricks; on a GPU one
 // (LANES = 1). Positions are voxels from the lattice's anchor, directions unit vectors.
@@ -20,7 +20,7 @@
 #if LANES == 16
 typedef float16 real;
 typedef int16 truth;
-#define ANY(c) any(c)
+#define ANY(c) any_of(c)
 #define TRUE ((truth)(-1))
 #else
 typedef float real;
@@ -30,6 +30,16 @@ typedef int truth;
 #endif
 #define REAL(x) ((real)(x))
 #define FALSE ((truth)(0))
+
+#if LANES == 16
+// In place of any(), of which PoCL makes a branch per lane.
+static int any_of(int16 c) {
+  const int8 c8 = c.lo | c.hi;
+  const int4 c4 = c8.lo | c8.hi;
+  const int2 c2 = c4.lo | c4.hi;
+  return c2.x | c2.y;
+}
+#endif
 
 typedef union {
   real v;
@@ -61,14 +71,16 @@ typedef struct {
   global const int* roots;      // OUTSIDE, INSIDE or the first of 64 in `children`
   global const int* children;   // OUTSIDE, INSIDE or a brick
   global const float* samples;  // N, BRICK_SAMPLES to a brick
-  global const uint* hidden;    // cells whose surface is not drawn, a bit each, 16 words to a brick
+  global const uint* drawn;     // cells, a bit each, in which the surface is drawn
+  global const uint* near;      // and those around them
 } Grid;
 
 #define GRID_ARGUMENTS                                                                        \
   int4 low, int4 size, global const int *restrict roots, global const int *restrict children, \
-      global const float *restrict samples, global const uint *restrict hidden
+      global const float *restrict samples, global const uint *restrict drawn,                \
+      global const uint *restrict near
 #define GRID \
-  { {low.x, low.y, low.z}, {size.x, size.y, size.z}, roots, children, samples, hidden }
+  { {low.x, low.y, low.z}, {size.x, size.y, size.z}, roots, children, samples, drawn, near }
 
 typedef struct {
   int low[3];
@@ -105,8 +117,8 @@ static Block block_at(const Grid* g, int x, int y, int z) {
 // The number of a cell or sample in its brick.
 static int in_brick(int x, int y, int z) { return ((x & 7) * 8 + (y & 7)) * 8 + (z & 7); }
 
-static int is_hidden(const Grid* g, int brick, int cell) {
-  return g->hidden[brick * (BRICK_SAMPLES / 32) + (cell >> 5)] >> (cell & 31) & 1;
+static int has_bit(global const uint* mask, int brick, int cell) {
+  return mask[brick * (BRICK_SAMPLES / 32) + (cell >> 5)] >> (cell & 31) & 1;
 }
 
 static float sample_at(const Grid* g, float threshold, int x, int y, int z) {
@@ -143,18 +155,29 @@ static float sampled_density(const Grid* g, float threshold, float x, float y, f
 // Points on the way at which N is summed, both ends included.
 #define STEPS 16
 #define PIECES (STEPS - 1)
-// The longest way is 13.9 voxels: 0.93, 0.062 and 0.0041 voxels to a piece.
-#define ROUNDS 3
+// A piece with a crossing, voxels; in it N goes straight.
+#define CLOSE_ENOUGH 0.02f
+
+// Kernels that a ray's way through a brick may be remembered to meet.
+#define MOST_MET 128
 
 // Where N comes from in a brick.
 typedef struct {
   int low[3];  // its origin: positions count from there
   global const Kernel* kernels;
-  global const uint* list;  // of those near it
+  global const float* radii;  // their largest, voxels
+  global const uint* list;    // of those near it
   uint count;
+  uint met[MOST_MET];  // of those, once the way is known
+  uint met_count;
   const Grid* grid;
   float threshold;
 } Source;
+
+// A ray and how far from it its neighbours are, at most, on the same way.
+typedef struct {
+  float x, y, z, dx, dy, dz, length, width;
+} Beam;
 
 #ifdef SAMPLED
 
@@ -168,6 +191,11 @@ static void sum_along(const Source* s, Real3 p, Real3 d, real step, real* n) {
     const Real3 q = along(p, d, step * (float)i);
     n[i] = sampled_near(s, q.x, q.y, q.z);
   }
+}
+
+static void sum_first(Source* s, Real3 p, Real3 d, real step, Beam beam, real* n) {
+  (void)beam;
+  sum_along(s, p, d, step, n);
 }
 
 // By differences over two voxels: smoother than the slope of a trilinear cell.
@@ -197,43 +225,85 @@ static Real3 transformed(global const Kernel* k, Real3 v) {
 
 static real dot3(Real3 a, Real3 b) { return fma(a.x, b.x, fma(a.y, b.y, a.z * b.z)); }
 
-// N at p + i step d, i < STEPS. Of a kernel, with q its point nearest to the ray, at s:
-// 1 - xi = (1 - |U q|^2) - |U d|^2 (t - s)^2, where no large numbers cancel however thin it is.
-static void sum_along(const Source* source, Real3 p, Real3 d, real step, real* n) {
-  for (int i = 0; i < STEPS; ++i) n[i] = REAL(0.0f);
-  const real length = step * (float)PIECES;
-  for (uint i = 0; i < source->count; ++i) {
-    global const Kernel* k = source->kernels + source->list[i];
-    const Centre c = centre_of(source, k);
-    const Real3 from = transformed(k, (Real3){p.x - c.x, p.y - c.y, p.z - c.z});
-    const Real3 way = transformed(k, d);
-    const real steepness = dot3(way, way);
-    const real s = -dot3(from, way) / steepness;
-    const Real3 q = along(from, way, s);
-    const real top = 1.0f - dot3(q, q);
-    // The nearest of the points summed at, at least.
-    const real beyond = fmax(fmax(-s, s - length), REAL(0.0f));
-    if (!ANY(fma(-steepness * beyond, beyond, top) > 0.0f)) continue;
-    const real slope = sqrt(steepness);
-    const real first = -s * slope, more = step * slope;
+// The kernels of the way, or where they were too many those of the brick.
+static uint count_of(const Source* s) { return s->met_count <= MOST_MET ? s->met_count : s->count; }
+static global const Kernel* kernel_of(const Source* s, uint i) {
+  return s->kernels + (s->met_count <= MOST_MET ? s->met[i] : s->list[i]);
+}
+
+// Adds the kernel to N at p + i step d, i < STEPS; false where it is out of reach. With q its point
+// nearest to the ray, at s: 1 - xi = (1 - |U q|^2) - |U d|^2 (t - s)^2, where no large numbers
+// cancel however thin the kernel is.
+static inline __attribute__((always_inline)) int add_along(const Source* source,
+                                                           global const Kernel* k, Real3 p, Real3 d,
+                                                           real step, real* n) {
+  const Centre c = centre_of(source, k);
+  const Real3 from = transformed(k, (Real3){p.x - c.x, p.y - c.y, p.z - c.z});
+  const Real3 way = transformed(k, d);
+  const real steepness = dot3(way, way);
+  const real s = -dot3(from, way) / steepness;
+  const Real3 q = along(from, way, s);
+  const real top = 1.0f - dot3(q, q);
+  const real beyond = fmax(fmax(-s, s - step * (float)PIECES), REAL(0.0f));
+  if (!ANY(fma(-steepness * beyond, beyond, top) > 0.0f)) return 0;
+  const real slope = sqrt(steepness);
+  const real first = -s * slope, more = step * slope;
 #define ADD(i)                                         \
   {                                                    \
     const real u = fma(REAL((float)(i)), more, first); \
     const real w = fmax(fma(-u, u, top), REAL(0.0f));  \
     n[i] = ADD_POWER(n[i], w);                         \
   }
-    ADD(0)
-    ADD(1) ADD(2) ADD(3) ADD(4) ADD(5) ADD(6) ADD(7) ADD(8) ADD(9) ADD(10) ADD(11) ADD(12) ADD(13)
-        ADD(14) ADD(15)
+  ADD(0)
+  ADD(1)
+  ADD(2)
+  ADD(3) ADD(4) ADD(5) ADD(6) ADD(7) ADD(8) ADD(9) ADD(10) ADD(11) ADD(12) ADD(13) ADD(14) ADD(15)
 #undef ADD
+      return 1;
+}
+
+static void sum_along(const Source* source, Real3 p, Real3 d, real step, real* n) {
+  for (int i = 0; i < STEPS; ++i) n[i] = REAL(0.0f);
+  const uint count = count_of(source);
+  for (uint i = 0; i < count; ++i) add_along(source, kernel_of(source, i), p, d, step, n);
+}
+
+// Kernels of a brick that are tried at once.
+#define RUN 128
+
+// The same for the whole way; from then on the source knows what it meets.
+static void sum_first(Source* source, Real3 p, Real3 d, real step, Beam beam, real* n) {
+  for (int i = 0; i < STEPS; ++i) n[i] = REAL(0.0f);
+  source->met_count = 0;
+  for (uint begin = 0; begin < source->count; begin += RUN) {
+    const uint end = min(begin + RUN, source->count);
+    uint candidates[RUN + 1];
+    uint count = 0;
+    for (uint i = begin; i < end; ++i) {
+      const uint rank = source->list[i];
+      const Centre c = centre_of(source, source->kernels + rank);
+      const float x = c.x - beam.x, y = c.y - beam.y, z = c.z - beam.z;
+      const float ahead = x * beam.dx + y * beam.dy + z * beam.dz;
+      const float reach = source->radii[rank] + beam.width;
+      const float aside = x * x + y * y + z * z - ahead * ahead;
+      candidates[count] = rank;
+      count += (aside < reach * reach) & (ahead > -reach) & (ahead < beam.length + reach);
+    }
+    for (uint i = 0; i < count; ++i) {
+      const uint rank = candidates[i];
+      if (!add_along(source, source->kernels + rank, p, d, step, n)) continue;
+      if (source->met_count < MOST_MET) source->met[source->met_count] = rank;
+      ++source->met_count;
+    }
   }
 }
 
 // The gradient of N, up to a positive factor.
 static Real3 gradient_at(const Source* source, Real3 p) {
   Real3 g = {REAL(0.0f), REAL(0.0f), REAL(0.0f)};
-  for (uint i = 0; i < source->count; ++i) {
-    global const Kernel* k = source->kernels + source->list[i];
+  const uint count = count_of(source);
+  for (uint i = 0; i < count; ++i) {
+    global const Kernel* k = kernel_of(source, i);
     const Centre c = centre_of(source, k);
     const Real3 u = transformed(k, (Real3){p.x - c.x, p.y - c.y, p.z - c.z});
     const real w = fmax(1.0f - dot3(u, u), REAL(0.0f));
@@ -280,7 +350,7 @@ static Crossing first_crossing(const real* n, float threshold, truth inside) {
 static real pin_down(const Source* source, Real3 p, Real3 d, real step, float threshold,
                      Crossing c) {
   real t = c.piece * step;
-  for (int round = 1; round < ROUNDS; ++round) {
+  while (ANY(c.found & (step > CLOSE_ENOUGH))) {
     real n[STEPS];
     step = step / (float)PIECES;
     sum_along(source, along(p, d, t), d, step, n);
@@ -300,10 +370,33 @@ static real pin_down(const Source* source, Real3 p, Real3 d, real step, float th
 
 // Steps over the edge of a block, voxels.
 #define NUDGE 1e-3f
+// Rounding in the test of a kernel against a beam, voxels.
+#define BEAM_SLACK 1e-2f
 // From a crossing that is not drawn to where the ray goes on.
 #define PAST_HIDDEN 1e-2f
 
 static real kept_from_zero(real d) { return select(d, REAL(1e-12f), fabs(d) < 1e-12f); }
+
+// The first and the last of the points of the lanes' ways through a brick that lie near the
+// surface; none: the first is behind the last.
+static int2 near_stretch(const Grid* grid, int brick, Real3 p, Real3 d, real step, truth lanes) {
+  const Truths here = {.v = lanes};
+  int2 stretch = {STEPS, -1};
+  for (int i = 0; i < STEPS; ++i) {
+    const Real3 q = along(p, d, step * (float)i);
+    const Reals x = {.v = clamp(q.x, 0.0f, 7.0f)}, y = {.v = clamp(q.y, 0.0f, 7.0f)},
+                z = {.v = clamp(q.z, 0.0f, 7.0f)};
+    for (int lane = 0; lane < LANES; ++lane) {
+      if (!here.lane[lane]) continue;
+      const int cell = in_brick((int)x.lane[lane], (int)y.lane[lane], (int)z.lane[lane]);
+      if (!has_bit(grid->near, brick, cell)) continue;
+      stretch.x = min(stretch.x, i);
+      stretch.y = i;
+      break;
+    }
+  }
+  return stretch;
+}
 
 static int first_of(truth lanes) {
   const Truths t = {.v = lanes};
@@ -312,12 +405,32 @@ static int first_of(truth lanes) {
   return lane;
 }
 
+static Beam beam_of(Real3 p, Real3 d, real step, truth lanes) {
+  const Reals px = {.v = p.x}, py = {.v = p.y}, pz = {.v = p.z};
+  const Reals dx = {.v = d.x}, dy = {.v = d.y}, dz = {.v = d.z};
+  const int lane = first_of(lanes);
+  Beam b = {px.lane[lane], py.lane[lane], pz.lane[lane], dx.lane[lane],
+            dy.lane[lane], dz.lane[lane], 0.0f,          0.0f};
+  const Reals length = {.v = select(REAL(0.0f), step * (float)PIECES, lanes)};
+  for (int i = 0; i < LANES; ++i) b.length = fmax(b.length, length.lane[i]);
+  // Two lines are farthest apart at an end of the way.
+  const Real3 q = along(p, d, REAL(b.length));
+  const real x0 = p.x - b.x, y0 = p.y - b.y, z0 = p.z - b.z;
+  const real x1 = q.x - fma(b.length, b.dx, b.x), y1 = q.y - fma(b.length, b.dy, b.y),
+             z1 = q.z - fma(b.length, b.dz, b.z);
+  const real apart = fmax(fma(x0, x0, fma(y0, y0, z0 * z0)), fma(x1, x1, fma(y1, y1, z1 * z1)));
+  const Reals square = {.v = select(REAL(0.0f), apart, lanes)};
+  for (int i = 0; i < LANES; ++i) b.width = fmax(b.width, square.lane[i]);
+  b.width = sqrt(b.width) + BEAM_SLACK;
+  return b;
+}
+
 // rays: an origin and a unit direction each. hits: the distance, infinite where there is none, and
 // the gradient of N, up to a positive factor.
 kernel void rays_closest(GRID_ARGUMENTS, global const Kernel* restrict kernels,
-                         global const uint* restrict first, global const uint* restrict list,
-                         float threshold, uint count, global const float* restrict rays,
-                         global float4* restrict hits) {
+                         global const float* restrict radii, global const uint* restrict first,
+                         global const uint* restrict list, float threshold, uint count,
+                         global const float* restrict rays, global float4* restrict hits) {
   const uint first_ray = get_global_id(0) * LANES;
   if (first_ray >= count) return;
   const Grid grid = GRID;
@@ -347,8 +460,8 @@ kernel void rays_closest(GRID_ARGUMENTS, global const Kernel* restrict kernels,
   o = along(o, d, entry);
 
   truth active = end > 0.0f;
-  truth inside = FALSE;
-  truth begins = entry == 0.0f;  // in the grid: on which side is not known yet
+  truth inside = FALSE, known = entry > 0.0f;  // on which side of the surface
+  Source source = {{0, 0, 0}, kernels, radii, list, 0, {0}, 0, &grid, threshold};
   real t = REAL(0.0f);
   Reals distance = {.v = REAL(INFINITY)};
   Reals gradient[3] = {{.v = REAL(0.0f)}, {.v = REAL(0.0f)}, {.v = REAL(0.0f)}};
@@ -362,8 +475,8 @@ kernel void rays_closest(GRID_ARGUMENTS, global const Kernel* restrict kernels,
                                  (int)floor(pz.lane[leader]));
     const float lx = (float)block.low[0], ly = (float)block.low[1], lz = (float)block.low[2];
     const float edge = (float)block.edge;
-    truth here = active & (p.x >= lx) & (p.x < lx + edge) & (p.y >= ly) & (p.y < ly + edge) &
-                 (p.z >= lz) & (p.z < lz + edge);
+    const truth here = active & (p.x >= lx) & (p.x < lx + edge) & (p.y >= ly) & (p.y < ly + edge) &
+                       (p.z >= lz) & (p.z < lz + edge);
     const Real3 far = {select(REAL(lx), REAL(lx + edge), d.x > 0.0f),
                        select(REAL(ly), REAL(ly + edge), d.y > 0.0f),
                        select(REAL(lz), REAL(lz + edge), d.z > 0.0f)};
@@ -373,53 +486,67 @@ kernel void rays_closest(GRID_ARGUMENTS, global const Kernel* restrict kernels,
 
     if (block.content < 0) {
       inside = select(inside, block.content == INSIDE ? TRUE : FALSE, here);
-    } else {
-      Source source = {
-          {block.low[0], block.low[1], block.low[2]}, kernels, list, 0, &grid, threshold};
-#ifndef SAMPLED
-      source.list = list + first[block.content];
-      source.count = first[block.content + 1] - first[block.content];
-#else
-      (void)first;
-#endif
-      const Real3 from = along((Real3){o.x - lx, o.y - ly, o.z - lz}, d, t);
-      const real step = fmax(exit - t, REAL(0.0f)) / (float)PIECES;
-      real n[STEPS];
-      sum_along(&source, from, d, step, n);
-      inside = select(inside, n[0] >= threshold, begins & here);
-      const Crossing crossing = first_crossing(n, threshold, inside);
-      const truth crossed = crossing.found & here;
-      inside = select(inside, n[PIECES] >= threshold, here & !crossed);
-      if (ANY(crossed)) {
-        const Reals way = {.v = pin_down(&source, from, d, step, threshold, crossing)};
-        const Real3 at = along(from, d, way.v);
-        const Reals x = {.v = at.x}, y = {.v = at.y}, z = {.v = at.z};
-        Truths drawn = {.v = crossed};
-        for (int lane = 0; lane < LANES; ++lane) {
-          if (!drawn.lane[lane]) continue;
-          const int cell = in_brick(clamp((int)x.lane[lane], 0, 7), clamp((int)y.lane[lane], 0, 7),
-                                    clamp((int)z.lane[lane], 0, 7));
-          if (is_hidden(&grid, block.content, cell)) drawn.lane[lane] = 0;
-        }
-        if (ANY(drawn.v)) {
-          const Real3 g = gradient_at(&source, at);
-          distance.v = select(distance.v, entry + t + way.v, drawn.v);
-          gradient[0].v = select(gradient[0].v, g.x, drawn.v);
-          gradient[1].v = select(gradient[1].v, g.y, drawn.v);
-          gradient[2].v = select(gradient[2].v, g.z, drawn.v);
-          active &= !drawn.v;
-        }
-        // What is not drawn is passed.
-        const truth passed = crossed & !drawn.v;
-        inside = select(inside, crossing.enters, passed);
-        t = select(t, t + way.v + PAST_HIDDEN, passed);
-        here &= !crossed;
-        active &= !(passed & (t >= end));
-        begins &= !passed;
-      }
+      known |= here;
+      t = select(t, exit, here);
+      active &= !(here & (t >= end));
+      continue;
     }
-    begins &= !here;
-    t = select(t, exit, here);
+
+    const Real3 from = along((Real3){o.x - lx, o.y - ly, o.z - lz}, d, t);
+    const real step = fmax(exit - t, REAL(0.0f)) / (float)PIECES;
+    const int2 stretch = near_stretch(&grid, block.content, from, d, step, here);
+    if (stretch.x > stretch.y) {
+      known &= !here;
+      t = select(t, exit, here);
+      active &= !(here & (t >= end));
+      continue;
+    }
+    // From the first point near the surface to the last, and to those beside them.
+    const int begin = max(stretch.x - 1, 0), finish = min(stretch.y + 1, PIECES);
+    if (begin > 0) known &= !here;
+    const real skipped = step * (float)begin;
+    const real finer = step * ((float)(finish - begin) / (float)PIECES);
+    const Real3 p0 = along(from, d, skipped);
+    source.low[0] = block.low[0], source.low[1] = block.low[1], source.low[2] = block.low[2];
+#ifndef SAMPLED
+    source.list = list + first[block.content];
+    source.count = first[block.content + 1] - first[block.content];
+#else
+    (void)first;
+#endif
+    real n[STEPS];
+    sum_first(&source, p0, d, finer, beam_of(p0, d, finer, here), n);
+    inside = select(inside, n[0] >= threshold, here & !known);
+    const Crossing crossing = first_crossing(n, threshold, inside);
+    const truth crossed = crossing.found & here;
+    const truth through = here & !crossed;
+    inside = select(inside, n[PIECES] >= threshold, through);
+    known = select(known, finish == PIECES ? TRUE : FALSE, through);
+    if (ANY(crossed)) {
+      const Reals way = {.v = pin_down(&source, p0, d, finer, threshold, crossing)};
+      const Real3 at = along(p0, d, way.v);
+      const Reals x = {.v = at.x}, y = {.v = at.y}, z = {.v = at.z};
+      Truths drawn_here = {.v = crossed};
+      for (int lane = 0; lane < LANES; ++lane) {
+        if (!drawn_here.lane[lane]) continue;
+        const int cell = in_brick(clamp((int)x.lane[lane], 0, 7), clamp((int)y.lane[lane], 0, 7),
+                                  clamp((int)z.lane[lane], 0, 7));
+        if (!has_bit(grid.drawn, block.content, cell)) drawn_here.lane[lane] = 0;
+      }
+      const truth meets = drawn_here.v, passes = crossed & !drawn_here.v;
+      if (ANY(meets)) {
+        const Real3 g = gradient_at(&source, at);
+        distance.v = select(distance.v, entry + t + skipped + way.v, meets);
+        gradient[0].v = select(gradient[0].v, g.x, meets);
+        gradient[1].v = select(gradient[1].v, g.y, meets);
+        gradient[2].v = select(gradient[2].v, g.z, meets);
+        active &= !meets;
+      }
+      inside = select(inside, crossing.enters, passes);
+      known |= passes;
+      t = select(t, t + skipped + way.v + PAST_HIDDEN, passes);
+    }
+    t = select(t, exit, through);
     active &= !(here & (t >= end));
   }
 
@@ -459,7 +586,7 @@ kernel void rays_occluded(GRID_ARGUMENTS, float threshold, float reach, uint cou
     const int cx = (int)floor(x), cy = (int)floor(y), cz = (int)floor(z);
     const Block block = block_at(&grid, cx, cy, cz);
     if (block.content >= 0) {
-      met = !is_hidden(&grid, block.content, in_brick(cx, cy, cz)) &&
+      met = has_bit(grid.drawn, block.content, in_brick(cx, cy, cz)) &&
             sampled_density(&grid, threshold, x, y, z) >= threshold;
       t += 1.0f;
     } else {

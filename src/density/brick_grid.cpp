@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <functional>
 #include <limits>
+#include <utility>
 
 #include "leafhull/error.h"
 
@@ -27,9 +28,19 @@ int child_index(Coord cell) {
   return (along(b.x) * kBricksAlong + along(b.y)) * kBricksAlong + along(b.z);
 }
 
-int cell_index(Coord cell) {
-  return ((cell.x & 7) * kBrickEdge + (cell.y & 7)) * kBrickEdge + (cell.z & 7);
+/// Of a cell in its brick's bits.
+std::uint64_t bit_of(Coord cell) {
+  return std::uint64_t{1} << ((cell.y & 7) * kBrickEdge + (cell.z & 7));
 }
+
+using Slab = std::uint64_t;  // of one x
+constexpr Slab kFirstZ = 0x0101010101010101, kLastZ = kFirstZ << 7;
+
+// A slab's cells moved by one, those of the neighbouring slab coming in.
+Slab up_z(Slab here, Slab below) { return (here & ~kLastZ) << 1 | (below & kLastZ) >> 7; }
+Slab down_z(Slab here, Slab above) { return (here & ~kFirstZ) >> 1 | (above & kFirstZ) << 7; }
+Slab up_y(Slab here, Slab below) { return here << 8 | below >> 56; }
+Slab down_y(Slab here, Slab above) { return here >> 8 | above << 56; }
 
 Coord origin_of(const Field::Brick& brick) {
   const openvdb::Coord o = brick.origin();
@@ -70,15 +81,18 @@ BrickGrid::BrickGrid(const Field& field) {
   }
   const std::span<const Field::Brick* const> bricks = field.bricks();
   samples.resize(bricks.size() * kBrickSamples);
-  hidden.assign(bricks.size() * kBrickMaskWords, 0);
+  origins_.reserve(bricks.size());
   for (std::size_t b = 0; b < bricks.size(); ++b) {
-    child(origin_of(*bricks[b])) = static_cast<std::int32_t>(b);
+    origins_.push_back(origin_of(*bricks[b]));
+    child(origins_.back()) = static_cast<std::int32_t>(b);
   }
   tbb::parallel_for(std::size_t{0}, bricks.size(), [&](std::size_t b) {
     const float* const values = bricks[b]->buffer().data();
     std::transform(values, values + kBrickSamples, samples.data() + b * kBrickSamples,
                    std::negate<>());
   });
+  drawn = with_neighbours(crossed(inside_value(field.threshold())));
+  near = with_neighbours(drawn);
 }
 
 std::int32_t& BrickGrid::child(Coord cell) {
@@ -103,26 +117,98 @@ std::int32_t BrickGrid::content(Coord cell) const {
   return first < 0 ? first : children[static_cast<std::size_t>(first + child_index(cell))];
 }
 
-void BrickGrid::draw_only(std::span<const Coord> cells, std::span<const Coord> others) {
-  std::fill(hidden.begin(), hidden.end(), ~0u);
-  const auto word = [&](Coord cell) -> std::uint32_t* {
-    const std::int32_t brick = content(cell);
-    return brick < 0 ? nullptr
-                     : &hidden[static_cast<std::size_t>(brick) * kBrickMaskWords +
-                               static_cast<std::size_t>(cell_index(cell) / 32)];
-  };
-  const auto bit = [](Coord cell) { return 1u << (cell_index(cell) % 32); };
-  for (const Coord cell : cells) {
-    for (int n = 0; n < 27; ++n) {
-      const Coord near = cell + Coord{n / 9 - 1, n / 3 % 3 - 1, n % 3 - 1};
-      if (std::uint32_t* w = word(near)) *w &= ~bit(near);
+/// Cells with corners on both sides.
+std::vector<CellBits> BrickGrid::crossed(float threshold) const {
+  const std::size_t count = origins_.size();
+  std::vector<CellBits> inside(count), cells(count);
+  tbb::parallel_for(std::size_t{0}, count, [&](std::size_t b) {
+    for (int s = 0; s < kBrickSamples; ++s) {
+      const Slab reached = samples[b * kBrickSamples + static_cast<std::size_t>(s)] >= threshold;
+      inside[b][static_cast<std::size_t>(s / 64)] |= reached << s % 64;
     }
-  }
-  for (const Coord cell : others) {
-    if (std::uint32_t* w = word(cell)) *w |= bit(cell);
-  }
-  for (const Coord cell : cells) {
-    if (std::uint32_t* w = word(cell)) *w &= ~bit(cell);
+  });
+  tbb::parallel_for(std::size_t{0}, count, [&](std::size_t b) {
+    const auto slab = [&](int x, int by, int bz) -> Slab {
+      const Coord at = origins_[b] + Coord{x & 8, by * kBrickEdge, bz * kBrickEdge};
+      const std::int32_t brick = content(at);
+      return brick >= 0 ? inside[static_cast<std::size_t>(brick)][static_cast<std::size_t>(x & 7)]
+             : brick == kInside ? ~Slab{0}
+                                : 0;
+    };
+    /// Corners of all cells with one x: any inside, all inside.
+    const auto corners = [&](int x) {
+      const auto along_z = [&](int by) {
+        const Slab here = slab(x, by, 0), next = down_z(here, slab(x, by, 1));
+        return std::pair(here | next, here & next);
+      };
+      const auto [any, all] = along_z(0);
+      const auto [any_above, all_above] = along_z(1);
+      return std::pair(any | down_y(any, any_above), all & down_y(all, all_above));
+    };
+    auto [any, all] = corners(0);
+    for (int x = 0; x < kBrickEdge; ++x) {
+      const auto [any_next, all_next] = corners(x + 1);
+      cells[b][static_cast<std::size_t>(x)] = (any | any_next) & ~(all & all_next);
+      any = any_next, all = all_next;
+    }
+  });
+  return cells;
+}
+
+/// The cells and the 26 around each.
+std::vector<CellBits> BrickGrid::with_neighbours(const std::vector<CellBits>& cells) const {
+  const auto widened = [&](const std::vector<CellBits>& from, Coord axis, auto&& widen) {
+    std::vector<CellBits> wide(from.size());
+    const CellBits none{};
+    tbb::parallel_for(std::size_t{0}, from.size(), [&](std::size_t b) {
+      const auto beside = [&](int side) -> const CellBits& {
+        const Coord o = origins_[b];
+        const std::int32_t brick = content(o + Coord{axis.x * side, axis.y * side, axis.z * side});
+        return brick < 0 ? none : from[static_cast<std::size_t>(brick)];
+      };
+      wide[b] = widen(beside(-kBrickEdge), from[b], beside(kBrickEdge));
+    });
+    return wide;
+  };
+  const auto slabs = [](auto&& widen) {
+    return [widen](const CellBits& below, const CellBits& here, const CellBits& above) {
+      CellBits wide;
+      for (std::size_t x = 0; x < kBrickEdge; ++x) wide[x] = widen(below[x], here[x], above[x]);
+      return wide;
+    };
+  };
+  const auto along_x = [](const CellBits& below, const CellBits& here, const CellBits& above) {
+    CellBits wide;
+    for (std::size_t x = 0; x < kBrickEdge; ++x) {
+      wide[x] = here[x] | (x > 0 ? here[x - 1] : below[kBrickEdge - 1]) |
+                (x + 1 < kBrickEdge ? here[x + 1] : above[0]);
+    }
+    return wide;
+  };
+  const auto in_z = widened(cells, {0, 0, 1}, slabs([](Slab below, Slab here, Slab above) {
+                              return here | up_z(here, below) | down_z(here, above);
+                            }));
+  const auto in_y = widened(in_z, {0, 1, 0}, slabs([](Slab below, Slab here, Slab above) {
+                              return here | up_y(here, below) | down_y(here, above);
+                            }));
+  return widened(in_y, {1, 0, 0}, along_x);
+}
+
+void BrickGrid::draw_only(std::span<const Coord> kept, std::span<const Coord> dropped) {
+  const auto bits_of = [&](std::span<const Coord> cells) {
+    std::vector<CellBits> bits(origins_.size());
+    for (const Coord cell : cells) {
+      const std::int32_t brick = content(cell);
+      if (brick < 0) continue;
+      bits[static_cast<std::size_t>(brick)][static_cast<std::size_t>(cell.x & 7)] |= bit_of(cell);
+    }
+    return bits;
+  };
+  const std::vector<CellBits> cells = bits_of(kept), others = bits_of(dropped);
+  drawn = with_neighbours(cells);
+  near = with_neighbours(drawn);
+  for (std::size_t b = 0; b < drawn.size(); ++b) {
+    for (std::size_t x = 0; x < kBrickEdge; ++x) drawn[b][x] &= ~(others[b][x] & ~cells[b][x]);
   }
 }
 

@@ -9,11 +9,13 @@
 namespace leafhull {
 namespace {
 
+float largest_radius(const Kernel& k) {
+  return std::max({k.radius_major, k.radius_minor, k.radius_normal});
+}
+
 float largest_radius(std::span<const Kernel> kernels) {
   float largest = 0;
-  for (const Kernel& k : kernels) {
-    largest = std::max({largest, k.radius_major, k.radius_minor, k.radius_normal});
-  }
+  for (const Kernel& k : kernels) largest = std::max(largest, largest_radius(k));
   return largest;
 }
 
@@ -24,10 +26,14 @@ KernelSet::KernelSet(std::span<const Kernel> kernels, std::shared_ptr<const Spat
     : hash_(std::move(hash)),
       lattice_(lattice),
       kernels_(kernels.size()),
+      radii_(kernels.size()),
       reach_(static_cast<double>(largest_radius(kernels)) / lattice.voxel_size) {
   const std::span<const std::uint32_t> order = hash_->order();
   tbb::parallel_for(std::size_t{0}, order.size(), [&](std::size_t rank) {
-    kernels_[rank] = to_lattice(kernels[order[rank]], lattice_);
+    const Kernel& kernel = kernels[order[rank]];
+    kernels_[rank] = to_lattice(kernel, lattice_);
+    radii_[rank] =
+        static_cast<float>(static_cast<double>(largest_radius(kernel)) / lattice_.voxel_size);
   });
 }
 

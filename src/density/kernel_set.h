@@ -23,8 +23,10 @@ class KernelSet {
   const SpatialHash& hash() const { return *hash_; }
   /// By rank.
   std::span<const LatticeKernel> kernels() const { return kernels_; }
-  /// The largest radius, voxels.
+  /// The largest radius of all, voxels.
   double reach() const { return reach_; }
+  /// The largest radius of each, voxels, by rank.
+  std::span<const float> radii() const { return radii_; }
 
   /// Replaces `ranks` by those of all kernels whose centre is within reach of the box [low, high]
   /// (voxels from the anchor) along every axis, and of some beyond it, ascending. Thread-safe.
@@ -38,6 +40,7 @@ class KernelSet {
   std::shared_ptr<const SpatialHash> hash_;
   Lattice lattice_;
   std::vector<LatticeKernel> kernels_;
+  std::vector<float> radii_;
   double reach_ = 0;
 };
 

@@ -30,7 +30,7 @@ struct RayCaster::Impl {
   int falloff;
   bool sampled;
   int lanes;  ///< rays that a work-item of rays_closest takes
-  cl::Buffer roots, children, samples, hidden, kernels, first, list;
+  cl::Buffer roots, children, samples, drawn, near, kernels, radii, first, list;
 
   Impl(Device& device, const BrickGrid& brick_grid, double t, int k, bool from_samples)
       : engine(device.engine()),
@@ -43,7 +43,8 @@ struct RayCaster::Impl {
       roots = engine.input(grid.roots);
       children = engine.input(grid.children);
       samples = engine.input(grid.samples);
-      hidden = engine.input(grid.hidden);
+      drawn = engine.input(grid.drawn);
+      near = engine.input(grid.near);
     });
   }
 
@@ -56,7 +57,8 @@ struct RayCaster::Impl {
     result.setArg(2, roots);
     result.setArg(3, children);
     result.setArg(4, samples);
-    result.setArg(5, hidden);
+    result.setArg(5, drawn);
+    result.setArg(6, near);
     return result;
   }
 
@@ -83,6 +85,7 @@ RayCaster::RayCaster(Device& device, const BrickGrid& grid, double threshold,
   Impl& d = *impl_;
   d.engine.run("sending the kernels", [&] {
     d.kernels = d.engine.buffer(kernels.kernels(), CL_MEM_READ_ONLY);
+    d.radii = d.engine.buffer(kernels.radii(), CL_MEM_READ_ONLY);
     d.first = d.engine.input(lists.first);
     d.list = d.engine.input(lists.kernels);
   });
@@ -92,7 +95,7 @@ RayCaster::RayCaster(Device& device, const BrickGrid& grid, double threshold)
     : impl_(std::make_unique<Impl>(device, grid, threshold, 2, true)) {
   Impl& d = *impl_;
   d.engine.run("sending the field", [&] {
-    for (cl::Buffer* unused : {&d.kernels, &d.first, &d.list}) {
+    for (cl::Buffer* unused : {&d.kernels, &d.radii, &d.first, &d.list}) {
       *unused = cl::Buffer(d.engine.context, CL_MEM_READ_ONLY, 1);
     }
   });
@@ -105,18 +108,19 @@ void RayCaster::closest(std::span<const VoxelRay> rays, std::span<VoxelHit> hits
   Impl& d = *impl_;
   d.engine.run("casting rays", [&] {
     cl::Kernel kernel = d.kernel("rays_closest", d.lanes);
-    kernel.setArg(6, d.kernels);
-    kernel.setArg(7, d.first);
-    kernel.setArg(8, d.list);
-    kernel.setArg(9, d.threshold);
+    kernel.setArg(7, d.kernels);
+    kernel.setArg(8, d.radii);
+    kernel.setArg(9, d.first);
+    kernel.setArg(10, d.list);
+    kernel.setArg(11, d.threshold);
     d.in_launches(
         rays.size(), d.lanes, [&](std::size_t begin, std::size_t count, std::size_t items) {
           const auto out = hits.subspan(begin, count);
           const cl::Buffer in = d.engine.buffer(rays.subspan(begin, count), CL_MEM_READ_ONLY);
           const cl::Buffer hits_out = d.engine.buffer(out, CL_MEM_WRITE_ONLY);
-          kernel.setArg(10, static_cast<cl_uint>(count));
-          kernel.setArg(11, in);
-          kernel.setArg(12, hits_out);
+          kernel.setArg(12, static_cast<cl_uint>(count));
+          kernel.setArg(13, in);
+          kernel.setArg(14, hits_out);
           d.enqueue(kernel, items);
           d.engine.fetch(hits_out, out);
         });
@@ -128,15 +132,15 @@ void RayCaster::occluded(std::span<const VoxelRay> rays, float reach,
   Impl& d = *impl_;
   d.engine.run("casting rays to the light", [&] {
     cl::Kernel kernel = d.kernel("rays_occluded", d.lanes);
-    kernel.setArg(6, d.threshold);
-    kernel.setArg(7, reach);
+    kernel.setArg(7, d.threshold);
+    kernel.setArg(8, reach);
     d.in_launches(rays.size(), 1, [&](std::size_t begin, std::size_t count, std::size_t items) {
       const auto out = answers.subspan(begin, count);
       const cl::Buffer in = d.engine.buffer(rays.subspan(begin, count), CL_MEM_READ_ONLY);
       const cl::Buffer answers_out = d.engine.buffer(out, CL_MEM_WRITE_ONLY);
-      kernel.setArg(8, static_cast<cl_uint>(count));
-      kernel.setArg(9, in);
-      kernel.setArg(10, answers_out);
+      kernel.setArg(9, static_cast<cl_uint>(count));
+      kernel.setArg(10, in);
+      kernel.setArg(11, answers_out);
       d.enqueue(kernel, items);
       d.engine.fetch(answers_out, out);
     });
@@ -147,15 +151,15 @@ void RayCaster::openness(std::span<const VoxelRay> points, float reach, std::spa
   Impl& d = *impl_;
   d.engine.run("looking at the surroundings", [&] {
     cl::Kernel kernel = d.kernel("openness", d.lanes);
-    kernel.setArg(6, d.threshold);
-    kernel.setArg(7, reach);
+    kernel.setArg(7, d.threshold);
+    kernel.setArg(8, reach);
     d.in_launches(points.size(), 1, [&](std::size_t begin, std::size_t count, std::size_t items) {
       const auto out = open.subspan(begin, count);
       const cl::Buffer in = d.engine.buffer(points.subspan(begin, count), CL_MEM_READ_ONLY);
       const cl::Buffer open_out = d.engine.buffer(out, CL_MEM_WRITE_ONLY);
-      kernel.setArg(8, static_cast<cl_uint>(count));
-      kernel.setArg(9, in);
-      kernel.setArg(10, open_out);
+      kernel.setArg(9, static_cast<cl_uint>(count));
+      kernel.setArg(10, in);
+      kernel.setArg(11, open_out);
       d.enqueue(kernel, items);
       d.engine.fetch(open_out, out);
     });

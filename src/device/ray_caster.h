@@ -27,7 +27,7 @@ struct VoxelHit {
 static_assert(sizeof(VoxelHit) == 16);
 
 /// Rays against the surface N = T on a device, no polygons. Every call returns when its results are
-/// there; a result depends on its ray alone.
+/// there; results depend on the rays and their order alone.
 class RayCaster {
  public:
   /// N comes from the kernels near each brick: `lists` has the bricks of the grid in their order.

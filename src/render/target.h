@@ -27,7 +27,7 @@ struct Spot {
 };
 
 /// Surfaces that rays are cast against, many rays at a time. Rays that follow each other should be
-/// neighbours. A result depends on its ray alone.
+/// neighbours. Results depend on the rays and their order alone.
 class Target {
  public:
   Target() = default;

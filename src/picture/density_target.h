@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+
+#include "pipeline/direct_surface.h"
+#include "render/surface.h"
+#include "render/target.h"
+
+namespace leafhull {
+
+/// The surface N = T as rays of a scene meet it, and how open the places around it are.
+class DensityTarget final : public render::Target, public render::Surroundings {
+ public:
+  /// @param color of the foliage, linear.
+  DensityTarget(std::shared_ptr<const DirectSurface> surface, const render::Placement& placement,
+                Vec3f color);
+
+  void closest(std::span<const render::Ray> rays, std::span<render::Spot> spots) const override;
+  void occluded(std::span<const render::Ray> rays, float reach,
+                std::span<std::uint8_t> answers) const override;
+  /// Of any surface in the scene; every turn gives the whole answer.
+  void openness(std::span<const render::Spot> spots, std::span<const std::uint8_t> turns,
+                std::span<float> open) const override;
+
+ private:
+  VoxelRay in_voxels(Vec3f position, Vec3f direction) const;
+
+  std::shared_ptr<const DirectSurface> surface_;
+  Vec3d origin_;   ///< the scene's, voxels from the lattice's anchor
+  double voxels_;  ///< to a unit of the scene
+  Vec3f color_;
+};
+
+}  // namespace leafhull
