@@ -115,7 +115,8 @@ Camera look_at(Vec3d eye, Vec3d target, Vec3d up, double angle_of_view, float as
     throw Error(ErrorCode::usage, "the camera's up has no direction in the picture",
                 "Give one that is not along the view, such as 0 1 0.");
   }
-  if (!(angle_of_view > 0 && angle_of_view < 180)) {
+  const bool is_open = angle_of_view > 0 && angle_of_view < 180;
+  if (!is_open) {
     throw Error(ErrorCode::usage, "the camera's angle of view is not between 0 and 180 degrees",
                 "Give one such as 30.");
   }

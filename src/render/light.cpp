@@ -6,6 +6,19 @@
 #include <cmath>
 
 namespace leafhull::render {
+namespace {
+
+/// IEC 61966-2-1, decoded.
+const std::array<float, 256> kLinear = [] {
+  std::array<float, 256> table;
+  for (int i = 0; i < 256; ++i) {
+    const float s = i / 255.0f;
+    table[i] = s <= 0.04045f ? s / 12.92f : std::pow((s + 0.055f) / 1.055f, 2.4f);
+  }
+  return table;
+}();
+
+}  // namespace
 
 Vec3f sun_direction(const Camera& camera) {
   const Vec3f towards_eye = cross(camera.right, Vec3f{0, 1, 0});
@@ -21,17 +34,7 @@ Vec3f develop(Vec3f radiance) {
   return {shoulder(radiance.x), shoulder(radiance.y), shoulder(radiance.z)};
 }
 
-float linear(std::uint8_t srgb) {
-  static const auto kTable = [] {
-    std::array<float, 256> table;
-    for (int i = 0; i < 256; ++i) {
-      const float s = i / 255.0f;
-      table[i] = s <= 0.04045f ? s / 12.92f : std::pow((s + 0.055f) / 1.055f, 2.4f);
-    }
-    return table;
-  }();
-  return kTable[srgb];
-}
+float linear(std::uint8_t srgb) { return kLinear[srgb]; }
 
 std::uint8_t srgb(float linear) {
   if (linear >= 1) return 255;

@@ -43,13 +43,13 @@ void MeshTarget::occluded(std::span<const Ray> rays, float reach,
 
 void MeshSurroundings::openness(std::span<const Spot> spots, std::span<const std::uint8_t> turns,
                                 std::span<float> open) const {
-  static const auto kDirections = sobol_points(kTurns, 2);
+  const std::vector<Vec2f> directions = sobol_points(kTurns, 2);
   std::vector<Ray> rays;
   std::vector<std::size_t> asked;
   for (std::size_t i = 0; i < spots.size(); ++i) {
     open[i] = 0;
     if (!spots[i].hit()) continue;
-    const Vec3f direction = cosine_direction(spots[i].normal, kDirections[turns[i]]);
+    const Vec3f direction = cosine_direction(spots[i].normal, directions[turns[i]]);
     if (dot(direction, spots[i].face_normal) <= 0) continue;
     rays.push_back({spots[i].position, direction});
     asked.push_back(i);

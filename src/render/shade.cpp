@@ -12,6 +12,7 @@ namespace leafhull::render {
 namespace {
 
 constexpr float kGloss = 0.16f, kShininess = 24;
+constexpr float kLeastOpen = 0.22f;  // in large pictures shade keeps its colour
 constexpr float kFarGrey = 0.2f;
 
 EdgeSample centre(const Buffers& buffers, std::size_t i) {
@@ -71,7 +72,9 @@ Vec3f specular(const EdgeSample& at, Vec3f to_light, Vec3f eye) {
 Picture shade_phong(const Buffers& buffers) {
   const auto color = [&](const EdgeSample& at) {
     if (at.object == Object::paper) return kWhite;
-    return develop(diffuse(at, buffers.to_light) + specular(at, buffers.to_light, buffers.eye));
+    EdgeSample lit = at;
+    lit.open = kLeastOpen + (1 - kLeastOpen) * at.open;
+    return develop(diffuse(lit, buffers.to_light) + specular(at, buffers.to_light, buffers.eye));
   };
   return shade(buffers, color, srgb);
 }

@@ -38,7 +38,7 @@ TEST(RenderPhong, LightShadowAndSkyTellInTurn) {
   const Picture picture = shade_phong(buffers);
   EXPECT_EQ(grey(picture, 0, 0), 255) << "paper";
   EXPECT_GT(grey(picture, 1, 0), grey(picture, 2, 0) + 30);
-  EXPECT_GT(grey(picture, 1, 0), grey(picture, 3, 0) + 5);
+  EXPECT_GT(grey(picture, 1, 0), grey(picture, 3, 0) + 2);
   EXPECT_GT(grey(picture, 2, 0), grey(picture, 4, 0) + 20);
   EXPECT_GT(grey(picture, 4, 0), 30) << "no black";
   for (int x = 1; x <= 4; ++x) {
