@@ -63,33 +63,36 @@ static real noise3(real x, real y, real z, uint seed) {
   return 1.3f * blend(side[0], side[1], w);
 }
 
+// Noise of so many cells in a period, at parts of it.
+static real cells2(real u, real v, int cells, uint seed) {
+  return noise2(u * (float)cells, v * (float)cells, cells, seed);
+}
+
+// The tooth of the paper: felt marks of two sizes.
+static real tooth(real u, real v, int cells, uint seed) {
+  return fma(REAL(0.62f), cells2(u, v, cells, seed), 0.38f * cells2(u, v, 2 * cells, seed + 1u));
+}
+
 // The paper: `height` of its surface, about 0..1; `speckle`, where dispersed pigment lies, and
 // `sway`, how a brush's edge wanders over the grain, both about -1..1; `relief`, how much light it
-// sends back under a lamp at the upper left, about 1. It repeats after `size` pixels either way.
-// cells: of its grain in `size` pixels.
-kernel void paper(int pitch, float size, int cells, uint seed, canvas height, canvas speckle,
+// sends back under a lamp at the upper left, about 1. It repeats after `period` pixels either way.
+// cells: of its grain in a period.
+kernel void paper(int pitch, float period, int cells, uint seed, canvas height, canvas speckle,
                   canvas sway, canvas relief) {
   const size_t i = get_global_id(0) * LANES;
-  const real x = (REAL((float)(i % pitch) + 0.5f) + RAMP) / size * (float)cells;
-  const real y = REAL(((float)(i / pitch) + 0.5f) / size * (float)cells);
-  const int coarse = max(cells / 5, 1);
-  const float c = (float)coarse / (float)cells;
-  const real drift = noise2(x * c, y * c, coarse, seed + 5u);
-
-  real tooth[3];  // here and half a cell to the right and below
-  for (int k = 0; k < 3; ++k) {
-    const real px = x + (k == 1 ? 0.5f : 0.0f), py = y + (k == 2 ? 0.5f : 0.0f);
-    const real wide = noise2(px, py, cells, seed);
-    const real middle = noise2(px * 2.0f, py * 2.0f, 2 * cells, seed + 1u);
-    tooth[k] = fma(REAL(0.62f), wide, 0.38f * middle);
-  }
-  const real fine = noise2(x * 3.0f, y * 3.0f, 3 * cells, seed + 2u);
-  STORE(saturate(fma(REAL(0.5f), tooth[0] + 0.3f * fine, REAL(0.5f))), height);
-  STORE(fma(REAL(0.7f), fine, 0.5f * noise2(x * 1.5f, y * 1.5f, cells * 3 / 2, seed + 3u)),
-        speckle);
-  STORE(fma(REAL(0.7f), drift, 0.5f * noise2(x * 0.5f, y * 0.5f, max(cells / 2, 1), seed + 4u)),
+  const real u = (REAL((float)(i % pitch) + 0.5f) + RAMP) / period;
+  const real v = REAL(((float)(i / pitch) + 0.5f) / period);
+  const real fine = cells2(u, v, 3 * cells, seed + 2u);
+  const real here = tooth(u, v, cells, seed);
+  STORE(saturate(fma(REAL(0.5f), here + 0.3f * fine, REAL(0.5f))), height);
+  STORE(fma(REAL(0.7f), fine, 0.5f * cells2(u, v, cells * 3 / 2, seed + 3u)), speckle);
+  STORE(fma(REAL(0.7f), cells2(u, v, max(cells / 5, 1), seed + 5u),
+            0.5f * cells2(u, v, max(cells / 2, 1), seed + 4u)),
         sway);
-  STORE(1.0f + (tooth[0] - tooth[1]) + (tooth[0] - tooth[2]) + 0.5f * fine, relief);
+  const float half_cell = 0.5f / (float)cells;
+  const real right = tooth(u + half_cell, v, cells, seed);
+  const real below = tooth(u, v + half_cell, cells, seed);
+  STORE(1.0f + (here - right) + (here - below) + 0.5f * fine, relief);
 }
 
 // A patch of ground at (foot_x, foot_y), its half-axes (reach_x, reach_y) pixels: 1 in its middle

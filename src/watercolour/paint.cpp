@@ -80,7 +80,7 @@ class Painting {
     const Plane reserved = passes_.mask(everywhere, visible, style_.gaps);
 
     if (const std::optional<Foot> foot = find_foot(buffers_)) {
-      const float reach = style_.shadow_reach * foot->crown;
+      const float reach = style_.ground_reach * foot->crown;
       lay(style_.ground,
           passes_.ground(unit_, {foot->x + 0.3f * reach, foot->y}, {reach, 0.14f * reach},
                          style_.seed),

@@ -35,6 +35,12 @@ struct Source {
 
 std::string in_quotes(std::string_view name) { return "'" + std::string(name) + "'"; }
 
+std::string names() {
+  std::string text;
+  for (const std::string_view name : kNames) text += (text.empty() ? "" : ", ") + std::string(name);
+  return text;
+}
+
 Vec3f parse_color(const Json& value, const std::string& key, const Source& source) {
   const auto text = value.is_string() ? value.get<std::string>() : std::string();
   unsigned r = 0, g = 0, b = 0;
@@ -137,14 +143,22 @@ Json parse_json(std::string_view text, const Source& source) {
   return json;
 }
 
+std::string base_of(const Json& json, const Source& source) {
+  if (!json.contains("base")) return std::string(kNames[0]);
+  const Json& base = json["base"];
+  for (const std::string_view name : kNames) {
+    if (base.is_string() && base.get<std::string>() == name) return std::string(name);
+  }
+  source.fail("the key 'base' is " + base.dump() + ", which names no style",
+              "There are: " + names() + ".");
+}
+
 std::string_view text_of(std::string_view name) {
-  if (name == kNames[0]) return style_classic;
-  if (name == kNames[1]) return style_wet;
-  if (name == kNames[2]) return style_dry;
-  std::string names;
-  for (const std::string_view one : kNames) names += (names.empty() ? "" : ", ") + std::string(one);
+  if (name == "classic") return style_classic;
+  if (name == "wet") return style_wet;
+  if (name == "dry") return style_dry;
   throw Error(ErrorCode::usage, "there is no watercolour style " + in_quotes(name),
-              "There are: " + names + ".");
+              "There are: " + names() + ".");
 }
 
 }  // namespace
@@ -152,30 +166,18 @@ std::string_view text_of(std::string_view name) {
 std::span<const std::string_view> style_names() { return kNames; }
 
 Style shipped_style(std::string_view name) {
+  const std::string_view text = text_of(name);
+  if (name != kNames[0]) return parse_style(text, std::string(name));
+  Style style;
   const Source source{std::string(name)};
-  const Json json = parse_json(text_of(name), source);
-  Style style = json.contains("base") ? shipped_style(json["base"].get<std::string>()) : Style{};
-  read_style(style, json, source);
+  read_style(style, parse_json(text, source), source);
   return style;
 }
 
 Style parse_style(std::string_view text, const std::string& file) {
   const Source source{file};
   const Json json = parse_json(text, source);
-  std::string base(kNames[0]);
-  if (json.contains("base")) {
-    if (!json["base"].is_string()) {
-      source.fail("the key 'base' is " + json["base"].dump() + ", which is no name",
-                  "Name a shipped style.");
-    }
-    base = json["base"].get<std::string>();
-  }
-  Style style;
-  try {
-    style = shipped_style(base);
-  } catch (const Error& error) {
-    source.fail("the key 'base': " + std::string(error.what()), error.remedy());
-  }
+  Style style = shipped_style(base_of(json, source));
   read_style(style, json, source);
   return style;
 }
@@ -207,7 +209,7 @@ std::span<const StyleKey> style_keys() {
       {"melting_softness", "[0, 0.1]", "softens the edges of masses in front",
        &Style::melting_softness, 0, 0.1f},
       {"gaps", "[0, 1]", "paper left free behind a mass in front", &Style::gaps, 0, 1},
-      {"shadow_reach", "[0.01, 5]", "of the wash at the foot, in half crowns", &Style::shadow_reach,
+      {"ground_reach", "[0.01, 5]", "of the wash at the foot, in half crowns", &Style::ground_reach,
        0.01f, 5},
       {"detail", "[0, 1]", "how many leaves are painted one by one", &Style::detail, 0, 1},
       {"leaf_size", "[0.1, 10]", "the size of their strokes, in leaves", &Style::leaf_size, 0.1f,

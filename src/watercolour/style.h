@@ -13,48 +13,48 @@ namespace leafhull::watercolour {
 
 /// One layer of paint: what it looks like on white paper, and how the brush lays it.
 struct Wash {
-  Vec3f cool, warm;          ///< sRGB of a coat of strength 1
-  float strength = 1;        ///< pigment in the water
-  float level = 0.5f;        ///< how dark (washes of tone) or how near (outlines) it begins
-  float size = 0.006f;       ///< of the shapes it is simplified to, of the picture's height
-  float wetness = 0.1f;      ///< of its edges: 0 wet on dry to 1 wet on wet
+  Vec3f cool{}, warm{};      ///< sRGB of a coat of strength 1
+  float strength = 0;        ///< pigment in the water
+  float level = 0;           ///< how dark (washes of tone) or how near (outlines) it begins
+  float size = 0;            ///< of the shapes it is simplified to
+  float wetness = 0;         ///< of its edges: 0 wet on dry to 1 wet on wet
   float lost_edges = 0;      ///< how much wetter they are in patches
-  float edge_darkening = 1;  ///< pigment carried to the rim
-  float granulation = 0.3f;  ///< pigment in the valleys of the paper
+  float edge_darkening = 0;  ///< pigment carried to the rim
+  float granulation = 0;     ///< pigment in the valleys of the paper
   float raggedness = 0;      ///< how leaves break the edge
   float dry_brush = 0;       ///< how the paper's peaks break the edge
 };
 
-/// How a watercolour is painted. Lengths are parts of the picture's height.
+/// How a watercolour is painted. Widths are parts of the picture's height. The values of
+/// styles/classic.json are the defaults.
 struct Style {
-  std::uint32_t seed = 1;
+  std::uint32_t seed = 0;
 
-  Vec3f paper{0.995f, 0.99f, 0.975f};  ///< sRGB
-  float grain = 0.006f;                ///< the width of the paper's grain
-  float roughness = 1;                 ///< how much of it paint feels
-  float relief = 0.05f;                ///< how much of it is seen in the light
+  Vec3f paper{};        ///< sRGB
+  float grain = 0;      ///< the width of the paper's grain
+  float roughness = 0;  ///< how much of it paint feels
+  float relief = 0;     ///< how much of it is seen in the light
 
-  float sky = 0.35f;         ///< the sky's share of the light that tones are read from
-  float dilution = 0.6f;     ///< how much the lights are thinned towards the paper
-  float warm_cool = 0.6f;    ///< how far colours lean to warm and cool across the crown
-  float turbulence = 0.35f;  ///< unevenness of the pigment in the water
-  float backruns = 0;        ///< fronts of pigment where water flowed back
-  float eddies = 7;          ///< of the turbulence, across the scene
-  float dispersion = 0.1f;   ///< specks of pigment
-  float bleeding = 0.5f;     ///< how much wet patches run into each other
-  float bleeding_width = 0.012f;
-  float edge_width = 0.0035f;  ///< of dark rims
-  float wobble = 0.05f;        ///< how an edge sways
-  float melting = 0.05f;       ///< how far behind another a mass has melted away; in the scene
-  float melting_width = 0.014f;
+  float sky = 0;               ///< the sky's share of the light that tones are read from
+  float dilution = 0;          ///< how much the lights are thinned towards the paper
+  float warm_cool = 0;         ///< how far colours lean to warm and cool across the crown
+  float turbulence = 0;        ///< unevenness of the pigment in the water
+  float eddies = 0;            ///< of the turbulence, across the scene
+  float backruns = 0;          ///< fronts of pigment where water flowed back
+  float dispersion = 0;        ///< specks of pigment
+  float bleeding = 0;          ///< how much wet patches run into each other
+  float bleeding_width = 0;    ///< how far
+  float edge_width = 0;        ///< of dark rims
+  float wobble = 0;            ///< how an edge sways
+  float gaps = 0;              ///< paper left free behind a mass in front
+  float melting = 0;           ///< how far behind another a mass has melted away; in the scene
+  float melting_width = 0;     ///< how far around
   float melting_softness = 0;  ///< of the edges of masses in front
-  float gaps = 0.3f;           ///< paper left free behind a mass in front
+  float ground_reach = 0;      ///< of the wash at the foot, in half crowns
 
-  float shadow_reach = 0.6f;  ///< of the wash at the foot, in half crowns
-
-  float detail = 0.4f;        ///< how many leaves are painted one by one
-  float leaf_size = 1;        ///< of their strokes, in leaves
-  float leaf_width = 0.004f;  ///< the least half-length of a stroke
+  float detail = 0;      ///< how many leaves are painted one by one
+  float leaf_size = 0;   ///< of their strokes, in leaves
+  float leaf_width = 0;  ///< the least half-length of a stroke, and half the largest
 
   Wash ambient, tone, shadow, wood, wood_shadow, leaves, ground;
 };
@@ -79,7 +79,7 @@ struct WashName {
 std::span<const WashName> wash_names();
 
 /// The style that a JSON text describes; what it leaves out stays as in the shipped style that its
-/// key "base" names, `classic` without one.
+/// key "base" names, without one `classic`.
 /// @param file its name, for messages.
 /// @throws Error usage: not JSON; or a key that is unknown, of a wrong type or out of range, named.
 Style parse_style(std::string_view json, const std::string& file);
