@@ -257,7 +257,9 @@ static inline __attribute__((always_inline)) int add_along(const Source* source,
   ADD(0)
   ADD(1)
   ADD(2)
-  ADD(3) ADD(4) ADD(5) ADD(6) ADD(7) ADD(8) ADD(9) ADD(10) ADD(11) ADD(12) ADD(13) ADD(14) ADD(15)
+  ADD(3)
+  ADD(4)
+  ADD(5) ADD(6) ADD(7) ADD(8) ADD(9) ADD(10) ADD(11) ADD(12) ADD(13) ADD(14) ADD(15)
 #undef ADD
       return 1;
 }
@@ -559,10 +561,12 @@ kernel void rays_closest(GRID_ARGUMENTS, global const Kernel* restrict kernels,
 
 // ---- Light ----
 
-// Whether a ray meets a place inside within `reach`: at points a voxel apart, N from the samples. A
-// work-item per ray.
-kernel void rays_occluded(GRID_ARGUMENTS, float threshold, float reach, uint count,
-                          global const float* restrict rays, global uchar* restrict answers) {
+// How much of a light a ray of length `reach` does not get, 0 to 1: the highest of
+// saturate((N - T) / soft) at points a voxel apart, N from the samples. A small `soft` tells
+// whether it meets a place inside: shadow. T itself gives ambient occlusion, 1 - saturate of N
+// above T. A work-item per ray.
+kernel void rays_blocked(GRID_ARGUMENTS, float threshold, float soft, float reach, uint count,
+                         global const float* restrict rays, global float* restrict blocked) {
   const uint i = get_global_id(0);
   if (i >= count) return;
   const Grid grid = GRID;
@@ -580,17 +584,19 @@ kernel void rays_occluded(GRID_ARGUMENTS, float threshold, float reach, uint cou
     t = fmax(t, fmin(to_low, to_high));
     end = fmin(end, fmax(to_low, to_high));
   }
-  int met = 0;
-  while (t < end && !met) {
+  float most = 0.0f;
+  while (t < end && most < 1.0f) {
     const float x = fma(t, d[0], o[0]), y = fma(t, d[1], o[1]), z = fma(t, d[2], o[2]);
     const int cx = (int)floor(x), cy = (int)floor(y), cz = (int)floor(z);
     const Block block = block_at(&grid, cx, cy, cz);
     if (block.content >= 0) {
-      met = has_bit(grid.drawn, block.content, in_brick(cx, cy, cz)) &&
-            sampled_density(&grid, threshold, x, y, z) >= threshold;
+      if (has_bit(grid.drawn, block.content, in_brick(cx, cy, cz))) {
+        const float above = sampled_density(&grid, threshold, x, y, z) - threshold;
+        most = fmax(most, clamp(above / soft, 0.0f, 1.0f));
+      }
       t += 1.0f;
     } else {
-      met = block.content == INSIDE;
+      if (block.content == INSIDE) most = 1.0f;
       float leaves = INFINITY;
       for (int a = 0; a < 3; ++a) {
         const float far = (float)(block.low[a] + (d[a] > 0.0f ? block.edge : 0));
@@ -599,41 +605,5 @@ kernel void rays_occluded(GRID_ARGUMENTS, float threshold, float reach, uint cou
       t = fmax(leaves, t) + NUDGE;
     }
   }
-  answers[i] = met ? 1 : 0;
-}
-
-// Where the surroundings are looked at: a direction in the tangent frame, the normal last, and how
-// far. Along the normal, around it at 35 degrees and at 65.
-#define OPENNESS_POINTS 12
-constant float4 openness_ways[OPENNESS_POINTS] = {
-    (float4)(0.0000f, 0.0000f, 1.0000f, 0.5000f),   (float4)(0.0000f, 0.0000f, 1.0000f, 1.0000f),
-    (float4)(0.4056f, 0.4056f, 0.8192f, 0.6500f),   (float4)(-0.4056f, 0.4056f, 0.8192f, 1.0000f),
-    (float4)(-0.4056f, -0.4056f, 0.8192f, 0.6500f), (float4)(0.4056f, -0.4056f, 0.8192f, 1.0000f),
-    (float4)(0.9063f, 0.0000f, 0.4226f, 0.4000f),   (float4)(0.4532f, 0.7849f, 0.4226f, 0.9000f),
-    (float4)(-0.4532f, 0.7849f, 0.4226f, 0.4000f),  (float4)(-0.9063f, 0.0000f, 0.4226f, 0.9000f),
-    (float4)(-0.4532f, -0.7849f, 0.4226f, 0.4000f), (float4)(0.4532f, -0.7849f, 0.4226f, 0.9000f)};
-
-// Ambient occlusion from the density: how much of the surroundings of a point, in the half space of
-// its normal, is not inside: 1 - the mean of saturate((N - T) / T). A work-item per point.
-// points: a position and a unit normal each. reach: of the surroundings, voxels.
-kernel void openness(GRID_ARGUMENTS, float threshold, float reach, uint count,
-                     global const float* restrict points, global float* restrict open) {
-  const uint i = get_global_id(0);
-  if (i >= count) return;
-  const Grid grid = GRID;
-  global const float* p = points + 6 * (size_t)i;
-  const float3 at = (float3)(p[0], p[1], p[2]), n = (float3)(p[3], p[4], p[5]);
-  // Source: T. Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 6(1), 2017.
-  const float side = copysign(1.0f, n.z);
-  const float a = -1.0f / (side + n.z), b = n.x * n.y * a;
-  const float3 u = (float3)(1.0f + side * n.x * n.x * a, side * b, -side * n.x);
-  const float3 v = (float3)(b, side + n.y * n.y * a, -n.y);
-  float shut = 0.0f;
-  for (int s = 0; s < OPENNESS_POINTS; ++s) {
-    const float4 way = openness_ways[s];
-    const float3 q = at + (u * way.x + v * way.y + n * way.z) * (way.w * reach);
-    const float above = sampled_density(&grid, threshold, q.x, q.y, q.z) - threshold;
-    shut += clamp(above / threshold, 0.0f, 1.0f);
-  }
-  open[i] = 1.0f - shut / OPENNESS_POINTS;
+  blocked[i] = most;
 }

@@ -127,41 +127,23 @@ void RayCaster::closest(std::span<const VoxelRay> rays, std::span<VoxelHit> hits
   });
 }
 
-void RayCaster::occluded(std::span<const VoxelRay> rays, float reach,
-                         std::span<std::uint8_t> answers) {
+void RayCaster::blocked(std::span<const VoxelRay> rays, float soft, float reach,
+                        std::span<float> blocked) {
   Impl& d = *impl_;
   d.engine.run("casting rays to the light", [&] {
-    cl::Kernel kernel = d.kernel("rays_occluded", d.lanes);
+    cl::Kernel kernel = d.kernel("rays_blocked", d.lanes);
     kernel.setArg(7, d.threshold);
-    kernel.setArg(8, reach);
+    kernel.setArg(8, soft);
+    kernel.setArg(9, reach);
     d.in_launches(rays.size(), 1, [&](std::size_t begin, std::size_t count, std::size_t items) {
-      const auto out = answers.subspan(begin, count);
+      const auto out = blocked.subspan(begin, count);
       const cl::Buffer in = d.engine.buffer(rays.subspan(begin, count), CL_MEM_READ_ONLY);
-      const cl::Buffer answers_out = d.engine.buffer(out, CL_MEM_WRITE_ONLY);
-      kernel.setArg(9, static_cast<cl_uint>(count));
-      kernel.setArg(10, in);
-      kernel.setArg(11, answers_out);
+      const cl::Buffer blocked_out = d.engine.buffer(out, CL_MEM_WRITE_ONLY);
+      kernel.setArg(10, static_cast<cl_uint>(count));
+      kernel.setArg(11, in);
+      kernel.setArg(12, blocked_out);
       d.enqueue(kernel, items);
-      d.engine.fetch(answers_out, out);
-    });
-  });
-}
-
-void RayCaster::openness(std::span<const VoxelRay> points, float reach, std::span<float> open) {
-  Impl& d = *impl_;
-  d.engine.run("looking at the surroundings", [&] {
-    cl::Kernel kernel = d.kernel("openness", d.lanes);
-    kernel.setArg(7, d.threshold);
-    kernel.setArg(8, reach);
-    d.in_launches(points.size(), 1, [&](std::size_t begin, std::size_t count, std::size_t items) {
-      const auto out = open.subspan(begin, count);
-      const cl::Buffer in = d.engine.buffer(points.subspan(begin, count), CL_MEM_READ_ONLY);
-      const cl::Buffer open_out = d.engine.buffer(out, CL_MEM_WRITE_ONLY);
-      kernel.setArg(9, static_cast<cl_uint>(count));
-      kernel.setArg(10, in);
-      kernel.setArg(11, open_out);
-      d.enqueue(kernel, items);
-      d.engine.fetch(open_out, out);
+      d.engine.fetch(blocked_out, out);
     });
   });
 }

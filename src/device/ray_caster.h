@@ -43,12 +43,10 @@ class RayCaster {
   /// follow each other should be neighbours: a CPU takes sixteen together.
   void closest(std::span<const VoxelRay> rays, std::span<VoxelHit> hits);
 
-  /// 1 where a ray meets a place inside within `reach` voxels, N taken from the samples; else 0.
-  void occluded(std::span<const VoxelRay> rays, float reach, std::span<std::uint8_t> answers);
-
-  /// How much of the surroundings within `reach` voxels of each point, on the side of its
-  /// `direction`, is open: 1 - the mean of saturate((N - T) / T) over twelve places.
-  void openness(std::span<const VoxelRay> points, float reach, std::span<float> open);
+  /// How much of a light each ray of length `reach` voxels does not get, 0..1: the highest of
+  /// saturate((N - T) / soft) along it, N taken from the samples. A `soft` near 0 makes shadows; T
+  /// ambient occlusion.
+  void blocked(std::span<const VoxelRay> rays, float soft, float reach, std::span<float> blocked);
 
  private:
   struct Impl;

@@ -5,12 +5,17 @@
 
 #include <vector>
 
+#include "render/light.h"
+#include "render/sampling.h"
+
 namespace leafhull {
 namespace {
 
 /// Light is looked for from this far above the surface, voxels: there the samples, between which N
 /// is a trilinear guess, are past the surface too.
 constexpr float kLift = 1.5f;
+/// Of T: how far N goes beyond it where a shadow is full.
+constexpr float kHard = 1e-6f;
 
 }  // namespace
 
@@ -54,21 +59,34 @@ void DensityTarget::closest(std::span<const render::Ray> rays,
 void DensityTarget::occluded(std::span<const render::Ray> rays, float reach,
                              std::span<std::uint8_t> answers) const {
   std::vector<VoxelRay> voxel_rays(rays.size());
+  std::vector<float> blocked(rays.size());
   tbb::parallel_for(std::size_t{0}, rays.size(), [&](std::size_t i) {
     voxel_rays[i] = in_voxels(rays[i].origin, rays[i].direction);
   });
-  surface_->caster().occluded(voxel_rays, reach * static_cast<float>(voxels_), answers);
+  surface_->caster().blocked(voxel_rays, kHard * threshold(), reach * static_cast<float>(voxels_),
+                             blocked);
+  for (std::size_t i = 0; i < rays.size(); ++i) answers[i] = blocked[i] > 0;
 }
 
 void DensityTarget::openness(std::span<const render::Spot> spots,
-                             std::span<const std::uint8_t> /*turns*/, std::span<float> open) const {
-  std::vector<VoxelRay> points(spots.size());
-  tbb::parallel_for(std::size_t{0}, spots.size(), [&](std::size_t i) {
-    const render::Spot& spot = spots[i];
-    points[i] = in_voxels(spot.position, spot.hit() ? spot.normal : Vec3f(0, 1, 0));
-  });
-  const double reach = surface_->surroundings() / surface_->lattice().voxel_size;
-  surface_->caster().openness(points, static_cast<float>(reach), open);
+                             std::span<const std::uint8_t> turns, std::span<float> open) const {
+  const std::vector<Vec2f> directions = render::sobol_points(kTurns, 2);
+  std::vector<VoxelRay> rays;
+  std::vector<std::size_t> asked;
+  for (std::size_t i = 0; i < spots.size(); ++i) {
+    open[i] = 0;
+    if (!spots[i].hit()) continue;
+    const Vec3f towards = render::cosine_direction(spots[i].normal, directions[turns[i]]);
+    if (!(dot(towards, spots[i].face_normal) > 0)) continue;
+    rays.push_back(in_voxels(spots[i].position, towards));
+    asked.push_back(i);
+  }
+  std::vector<float> blocked(rays.size());
+  surface_->caster().blocked(rays, threshold(), render::kSkyReach * static_cast<float>(voxels_),
+                             blocked);
+  for (std::size_t i = 0; i < asked.size(); ++i) open[asked[i]] = 1 - blocked[i];
 }
+
+float DensityTarget::threshold() const { return static_cast<float>(surface_->report().threshold); }
 
 }  // namespace leafhull

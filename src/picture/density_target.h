@@ -19,11 +19,13 @@ class DensityTarget final : public render::Target, public render::Surroundings {
   void closest(std::span<const render::Ray> rays, std::span<render::Spot> spots) const override;
   void occluded(std::span<const render::Ray> rays, float reach,
                 std::span<std::uint8_t> answers) const override;
-  /// Of any surface in the scene; every turn gives the whole answer.
+  /// Of any surface in the scene: ambient occlusion is the highest of saturate((N - T) / T) on the
+  /// way to the sky.
   void openness(std::span<const render::Spot> spots, std::span<const std::uint8_t> turns,
                 std::span<float> open) const override;
 
  private:
+  float threshold() const;
   VoxelRay in_voxels(Vec3f position, Vec3f direction) const;
 
   std::shared_ptr<const DirectSurface> surface_;

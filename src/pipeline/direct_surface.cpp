@@ -13,11 +13,6 @@
 namespace leafhull {
 namespace {
 
-/// Of R_max: as far as a kernel and its neighbour's reach.
-constexpr double kSurroundings = 2;
-/// Of a field that does not say what made it: voxels.
-constexpr double kSurroundingsVoxels = 10;
-
 bool reaches(const Field& field) {
   return static_cast<double>(field.highest()) >= field.threshold() || !field.inside().empty();
 }
@@ -33,7 +28,6 @@ struct DirectSurface::Impl {
   std::shared_ptr<const Field> field;
   std::optional<BrickGrid> grid;
   std::optional<RayCaster> caster;
-  double surroundings = 0;
 };
 
 DirectSurface::DirectSurface(const LeafSet& leaves, const Options& options, Device& device,
@@ -58,7 +52,6 @@ DirectSurface::DirectSurface(const LeafSet& leaves, const Options& options, Devi
   }
   d.caster.emplace(device, *d.grid, d.report.threshold, stages.density().kernels(), *stages.lists(),
                    d.report.options.falloff);
-  d.surroundings = kSurroundings * d.report.radius_max_model;
   d.report.counts.leaves = leaves.leaf_count;
   d.report.counts.leaf_vertices = leaves.vertices.size();
   d.report.seconds = d.watch.finish();
@@ -77,7 +70,6 @@ DirectSurface::DirectSurface(std::shared_ptr<const Field> field, Device& device)
   d.report.voxel_size = d.field->lattice().voxel_size;
   d.grid.emplace(*d.field);
   d.caster.emplace(device, *d.grid, d.field->threshold());
-  d.surroundings = kSurroundingsVoxels * d.field->lattice().voxel_size;
 }
 
 DirectSurface::~DirectSurface() = default;
@@ -86,6 +78,5 @@ DirectSurface::DirectSurface(DirectSurface&&) noexcept = default;
 RayCaster& DirectSurface::caster() const { return *impl_->caster; }
 const Lattice& DirectSurface::lattice() const { return impl_->field->lattice(); }
 const Report& DirectSurface::report() const { return impl_->report; }
-double DirectSurface::surroundings() const { return impl_->surroundings; }
 
 }  // namespace leafhull

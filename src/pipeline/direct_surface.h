@@ -29,8 +29,6 @@ class DirectSurface {
   const Lattice& lattice() const;
   /// What the extraction did, as far as it went; of a tree alone.
   const Report& report() const;
-  /// How far around a place counts as its surroundings for ambient occlusion, model units.
-  double surroundings() const;
 
  private:
   struct Impl;

@@ -214,25 +214,28 @@ TEST(Rays, PassThroughWhatIsNotDrawn) {
   EXPECT_NEAR(distance(), 60 - radius, 0.01);
   subject.grid->draw_only(drawn, others);
   EXPECT_NEAR(distance(), 100 - radius, 0.01);
-  std::uint8_t met = 2;
-  subject.exact(cpu).occluded({&ray, 1}, 90, {&met, 1});
-  EXPECT_EQ(met, 0);
-  subject.exact(cpu).occluded({&ray, 1}, 110, {&met, 1});
-  EXPECT_EQ(met, 1);
+  float blocked = 2;
+  subject.exact(cpu).blocked({&ray, 1}, 1e-6f, 90, {&blocked, 1});
+  EXPECT_EQ(blocked, 0);
+  subject.exact(cpu).blocked({&ray, 1}, 1e-6f, 110, {&blocked, 1});
+  EXPECT_EQ(blocked, 1);
 }
 
-TEST(Rays, SurroundingsAreOpenOnABallAndShutBetweenTwo) {
+TEST(Rays, AreBlockedByWhatLiesAboveT) {
   Device& cpu = device("vector");
-  const Subject subject({sphere({0, 0, 0}, 10), sphere({12, 0, 0}, 10)}, 1, cpu);
-  const double radius = 10 * std::sqrt(1 - std::sqrt(kThreshold));
-  const auto at = [&](Vec3d p, Vec3f n) { return VoxelRay{Vec3f(subject.lattice.local(p)), n}; };
-  const VoxelRay points[] = {at({-radius, 0, 0}, {-1, 0, 0}), at({4, 2, 0}, {1, 0, 0}),
-                             at({0, 0, 0}, {0, 1, 0})};
-  std::vector<float> open(3);
-  subject.exact(cpu).openness(points, 4, open);
-  EXPECT_EQ(open[0], 1);
-  EXPECT_LT(open[1], 0.95f);
-  EXPECT_LT(open[2], open[1]);
+  // N is 1 in the middle: twice T there.
+  const Subject subject({sphere({0, 0, 0}, 10)}, 1, cpu);
+  const auto at = [&](Vec3d p) { return VoxelRay{Vec3f(subject.lattice.local(p)), {1, 0, 0}}; };
+  const double y = 4;  // beside the middle N is (1 - 0.16)^2 at most
+  const VoxelRay rays[] = {at({-30, 0, 0}), at({-30, y, 0}), at({-30, 0, 6}), at({10, 0, 0})};
+  std::vector<float> blocked(4);
+  subject.exact(cpu).blocked(rays, kThreshold, 100, blocked);
+  EXPECT_NEAR(blocked[0], 1, 0.02);
+  EXPECT_NEAR(blocked[1], (0.7056 - kThreshold) / kThreshold, 0.03);
+  EXPECT_EQ(blocked[2], 0);
+  EXPECT_EQ(blocked[3], 0);
+  subject.exact(cpu).blocked(rays, kThreshold, 22, blocked);  // ends before the surface
+  EXPECT_EQ(blocked[0], 0);
 }
 
 }  // namespace
