@@ -259,7 +259,8 @@ static inline __attribute__((always_inline)) int add_along(const Source* source,
   ADD(2)
   ADD(3)
   ADD(4)
-  ADD(5) ADD(6) ADD(7) ADD(8) ADD(9) ADD(10) ADD(11) ADD(12) ADD(13) ADD(14) ADD(15)
+  ADD(5)
+  ADD(6) ADD(7) ADD(8) ADD(9) ADD(10) ADD(11) ADD(12) ADD(13) ADD(14) ADD(15)
 #undef ADD
       return 1;
 }
@@ -585,15 +586,16 @@ kernel void rays_blocked(GRID_ARGUMENTS, float threshold, float soft, float reac
     end = fmin(end, fmax(to_low, to_high));
   }
   float most = 0.0f;
+  int counts = 0;  // inside of what is drawn: its surface was passed
   while (t < end && most < 1.0f) {
     const float x = fma(t, d[0], o[0]), y = fma(t, d[1], o[1]), z = fma(t, d[2], o[2]);
     const int cx = (int)floor(x), cy = (int)floor(y), cz = (int)floor(z);
     const Block block = block_at(&grid, cx, cy, cz);
     if (block.content >= 0) {
-      if (has_bit(grid.drawn, block.content, in_brick(cx, cy, cz))) {
-        const float above = sampled_density(&grid, threshold, x, y, z) - threshold;
-        most = fmax(most, clamp(above / soft, 0.0f, 1.0f));
-      }
+      const float above = sampled_density(&grid, threshold, x, y, z) - threshold;
+      counts =
+          (above >= 0.0f) & (counts | has_bit(grid.drawn, block.content, in_brick(cx, cy, cz)));
+      if (counts) most = fmax(most, fmin(above / soft, 1.0f));
       t += 1.0f;
     } else {
       if (block.content == INSIDE) most = 1.0f;
