@@ -7,12 +7,14 @@
 #include <cmath>
 #include <optional>
 
-#include "device/opencl.h"
+#include "device/engine.h"
 #include "leafhull/error.h"
 #include "watercolour/passes.h"
 
 namespace leafhull::watercolour {
 namespace {
+
+constexpr std::size_t kMostPlanes = 40;  // at a time
 
 constexpr float kWrap = 0.25f;        // how far light reaches around a mass
 constexpr float kBroad = 1.6f;        // of the brush that breaks edges, in strokes of single leaves
@@ -212,17 +214,35 @@ Painter::Painter(Device& device) : impl_(new Impl{device}) {}
 Painter::~Painter() = default;
 Painter::Painter(Painter&&) noexcept = default;
 
+std::size_t Painter::memory() const { return impl_->passes ? impl_->passes->memory() : 0; }
+
+std::size_t Painter::memory_of(int width, int height) {
+  return kMostPlanes * Passes::plane_bytes(width, height);
+}
+
 Picture Painter::paint(const render::Buffers& buffers, std::span<const Stroke> leaves,
                        const Style& style) {
+  Device::Engine& engine = impl_->device.engine();
+  const int width = buffers.width, height = buffers.height;
+  if (width < 1 || height < 1) throw Error(ErrorCode::usage, "a picture has at least one pixel");
+  const std::string what =
+      "a watercolour of " + std::to_string(width) + "x" + std::to_string(height);
   try {
+    if (memory_of(width, height) > engine.info.memory_bytes ||
+        Passes::plane_bytes(width, height) >
+            engine.device.getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>()) {
+      throw Error(ErrorCode::usage,
+                  what + " does not fit into the memory of '" + engine.info.name + "'",
+                  "Ask for a smaller picture.");
+    }
     impl_->prepare(buffers, style);
     Painting painting(*impl_->passes, impl_->paper, buffers, style);
-    return {buffers.width, buffers.height, painting.paint(leaves)};
+    return {width, height, painting.paint(leaves)};
   } catch (const cl::Error& error) {
+    clFinish(engine.queue());  // nothing may still use the buffers
     throw Error(ErrorCode::device,
-                "painting a watercolour of " + std::to_string(buffers.width) + "x" +
-                    std::to_string(buffers.height) + " failed on '" + impl_->device.info().name +
-                    "': " + error.what() + " returned " + std::to_string(error.err()),
+                what + " failed on '" + engine.info.name + "': " + error.what() + " returned " +
+                    std::to_string(error.err()),
                 "Try a smaller picture or another device (`leafhull devices`).");
   }
 }

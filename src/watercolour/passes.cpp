@@ -61,6 +61,7 @@ struct Passes::Impl {
   int width, height;
   int pitch = padded(width), rows = padded(height);
   int lanes = engine.vector() ? 16 : 1;
+  std::size_t planes = 0;  ///< in use or free
   std::shared_ptr<Pool> free = std::make_shared<Pool>();
   std::map<std::string, cl::Kernel, std::less<>> kernels{};
   std::map<float, cl::Buffer> weights{};  ///< by standard deviation
@@ -69,6 +70,7 @@ struct Passes::Impl {
 
   Plane plane() {
     if (free->empty()) {
+      ++planes;
       free->emplace_back(engine.context, CL_MEM_READ_WRITE, values() * sizeof(float));
     }
     auto plane = std::make_shared<PlaneMemory>(free->back(), free);
@@ -107,9 +109,10 @@ struct Passes::Impl {
   /// The blur of the columns of `in`, turned.
   void blur_turning(const Plane& in, int in_pitch, int in_rows, int rows_within,
                     const cl::Buffer& weights, int reach, const Plane& out) {
-    launch("blur", cl::NDRange(in_pitch / lanes, in_rows / lanes), cl::NDRange(1, 1), in, in_pitch,
-           rows_within, weights, reach, cl::Local((lanes + 2 * reach) * lanes * sizeof(float)), out,
-           in_rows);
+    const cl::NDRange group = lanes > 1 ? cl::NDRange(1, 1) : cl::NDRange(kPadding, kPadding);
+    const std::size_t window = lanes > 1 ? lanes + 2 * reach : 1;
+    launch("blur", cl::NDRange(in_pitch / lanes, in_rows / lanes), group, in, in_pitch, rows_within,
+           weights, reach, cl::Local(window * lanes * sizeof(float)), out, in_rows);
   }
 };
 
@@ -128,6 +131,14 @@ Passes::Passes(Device& device, int width, int height)
 }
 
 Passes::~Passes() = default;
+
+std::size_t Passes::memory() const {
+  return impl_->planes * plane_bytes(impl_->width, impl_->height);
+}
+
+std::size_t Passes::plane_bytes(int width, int height) {
+  return sizeof(float) * padded(width) * padded(height);
+}
 
 Plane Passes::constant(float value) {
   Plane out = impl_->plane();

@@ -53,6 +53,10 @@ class Passes {
   Passes(Device& device, int width, int height);
   ~Passes();
 
+  /// Bytes of the planes that it holds, and of one.
+  std::size_t memory() const;
+  static std::size_t plane_bytes(int width, int height);
+
   Plane constant(float value);
   Plane upload(std::span<const float> values);
   std::vector<float> download(const Plane& plane);

@@ -134,9 +134,10 @@ std::vector<float> paint_leaves(std::span<const Stroke> strokes, const Room& roo
       if (rank >= detail) return;
       const std::optional<std::size_t> at = seen_at(dab, room, brush);
       if (!at) return;
+      const float near = smooth(0, 0.1f, room.outline[*at]);
       const float edge = 1 - smooth(0.5f, 0.98f, room.outline[*at]);
       const float light = smooth(0.3f, 0.7f, 1 - room.dark[*at]);
-      const float wanted = detail * std::max(edge, 0.35f * light);
+      const float wanted = detail * near * std::max(edge, 0.35f * light);
       const float opacity = smooth(0, 0.1f, wanted - rank) * (0.6f + 0.4f * chance(dab.leaf, 1));
       if (opacity <= 0) return;
       cover(dab, room, [&](std::size_t pixel, float c) {

@@ -22,7 +22,7 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr std::array<std::string_view, 3> kNames{"classic", "wet", "dry"};
-constexpr float kMostSeed = 4294967040.0f;  // the largest float below 2^32
+constexpr float kMostSeed = 1e6f;
 
 /// A file that is read, for messages.
 struct Source {
@@ -184,7 +184,7 @@ Style parse_style(std::string_view text, const std::string& file) {
 
 std::span<const StyleKey> style_keys() {
   static const StyleKey keys[] = {
-      {"seed", "[0, 4294967040]", "another paper and other patches", &Style::seed, 0, kMostSeed},
+      {"seed", "[0, 1000000]", "another paper and other patches", &Style::seed, 0, kMostSeed},
       {"paper", "a colour", "the paper's colour", &Style::paper},
       {"grain", "[0.001, 0.1]", "the width of the paper's grain", &Style::grain, 0.001f, 0.1f},
       {"roughness", "[0, 3]", "how much of its grain the paint feels", &Style::roughness, 0, 3},
