@@ -124,8 +124,8 @@ Passes::Passes(Device& device, int width, int height)
        std::string(kernel_source_watercolour_noise)},
       "-cl-std=CL1.2 -DLANES=" + std::to_string(d.lanes));
   for (const char* name :
-       {"paper", "ground", "flow", "blur", "see", "pad", "darkness", "visibility", "mask", "layer",
-        "darken_edges", "dilute", "granulate", "glaze", "wet", "bleed", "develop"}) {
+       {"paper", "ground", "flow", "blur", "see", "pad", "darkness", "extend", "visibility", "mask",
+        "layer", "darken_edges", "dilute", "granulate", "glaze", "wet", "bleed", "develop"}) {
     d.kernels.emplace(name, cl::Kernel(program, name));
   }
 }
@@ -195,11 +195,12 @@ Plane Passes::ground(float size, Vec2f foot, Vec2f reach, std::uint32_t seed) {
   return out;
 }
 
-FlowPlanes Passes::flow(const SeenPlanes& around, float eddies, float leaves, std::uint32_t seed) {
+FlowPlanes Passes::flow(const Plane& near, std::span<const Plane, 3> places, float eddies,
+                        float leaves, std::uint32_t seed) {
   Impl& d = *impl_;
   FlowPlanes out{d.plane(), d.plane(), d.plane(), d.plane()};
-  d.over_plane("flow", around.seen, around.x, around.y, around.z, eddies, leaves, seed,
-               out.turbulence, out.warmth, out.breaking, out.wetness);
+  d.over_plane("flow", near, places[0], places[1], places[2], eddies, leaves, seed, out.turbulence,
+               out.warmth, out.breaking, out.wetness);
   return out;
 }
 
@@ -227,11 +228,17 @@ Plane Passes::darkness(const Plane& light, const Plane& seen) {
   return out;
 }
 
-Plane Passes::visibility(const SeenPlanes& here, const SeenPlanes& near, const Plane& seen_around,
-                         const Plane& far_around, float reach) {
+Plane Passes::extend(const Plane& seen, const Plane& value, const Plane& seen_near,
+                     const Plane& value_near) {
   Plane out = impl_->plane();
-  impl_->over_plane("visibility", here.seen, here.far, near.seen, near.far, seen_around, far_around,
-                    reach, out);
+  impl_->over_plane("extend", seen, value, seen_near, value_near, out);
+  return out;
+}
+
+Plane Passes::visibility(const Plane& far, const Plane& seen_around, const Plane& far_around,
+                         float reach) {
+  Plane out = impl_->plane();
+  impl_->over_plane("visibility", far, seen_around, far_around, reach, out);
   return out;
 }
 
