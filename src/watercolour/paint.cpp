@@ -138,7 +138,7 @@ class Painting {
     edge.dryness = wash.dry_brush * style_.roughness;
     edge.wobble = style_.wobble;
     edge.raggedness = wash.raggedness;
-    const Plane alpha = passes_.layer(rho, within, paper_, flow_, edge);
+    Plane alpha = passes_.layer(rho, within, paper_, flow_, edge);
     const Plane around = passes_.blur(alpha, style_.edge_width * unit_);
     const Plane density = passes_.darken_edges(alpha, around, wash.edge_darkening);
     passes_.dilute(density, flow_.turbulence, dark_, style_.turbulence, style_.backruns,

@@ -50,27 +50,34 @@ struct PlaneMemory {
       : buffer(std::move(memory)), pool(std::move(from)) {}
   PlaneMemory(const PlaneMemory&) = delete;
   PlaneMemory& operator=(const PlaneMemory&) = delete;
-  ~PlaneMemory() { pool->push_back(buffer); }
+  ~PlaneMemory() { pool->push_back(std::move(buffer)); }  // there is room: see plane()
 
   cl::Buffer buffer;
   std::shared_ptr<Pool> pool;
 };
 
 struct Passes::Impl {
+  Impl(Device::Engine& on, int of_width, int of_height)
+      : engine(on),
+        width(of_width),
+        height(of_height),
+        pitch(padded(of_width)),
+        rows(padded(of_height)),
+        lanes(on.vector() ? 16 : 1) {}
+
   Device::Engine& engine;
-  int width, height;
-  int pitch = padded(width), rows = padded(height);
-  int lanes = engine.vector() ? 16 : 1;
+  int width, height, pitch, rows, lanes;
   std::size_t planes = 0;  ///< in use or free
   std::shared_ptr<Pool> free = std::make_shared<Pool>();
-  std::map<std::string, cl::Kernel, std::less<>> kernels{};
-  std::map<float, cl::Buffer> weights{};  ///< by standard deviation
+  std::map<std::string, cl::Kernel, std::less<>> kernels;
+  std::map<float, cl::Buffer> weights;  ///< by standard deviation
 
   std::size_t values() const { return static_cast<std::size_t>(pitch) * rows; }
 
   Plane plane() {
     if (free->empty()) {
       ++planes;
+      free->reserve(planes);
       free->emplace_back(engine.context, CL_MEM_READ_WRITE, values() * sizeof(float));
     }
     auto plane = std::make_shared<PlaneMemory>(free->back(), free);
@@ -117,12 +124,15 @@ struct Passes::Impl {
 };
 
 Passes::Passes(Device& device, int width, int height)
-    : impl_(new Impl{device.engine(), width, height}) {
+    : impl_(new Impl(device.engine(), width, height)) {
   Impl& d = *impl_;
-  const cl::Program program = d.engine.build(
-      {std::string(kernel_source_watercolour), std::string(kernel_source_watercolour_blur),
-       std::string(kernel_source_watercolour_noise)},
-      "-cl-std=CL1.2 -DLANES=" + std::to_string(d.lanes));
+  cl::Program::Sources sources;
+  for (const std::string_view source : {kernel_source_watercolour, kernel_source_watercolour_blur,
+                                        kernel_source_watercolour_noise}) {
+    sources.emplace_back(source);
+  }
+  const cl::Program program =
+      d.engine.build(sources, "-cl-std=CL1.2 -DLANES=" + std::to_string(d.lanes));
   for (const char* name :
        {"paper", "ground", "flow", "blur", "see", "pad", "darkness", "extend", "visibility", "mask",
         "layer", "darken_edges", "dilute", "granulate", "glaze", "wet", "bleed", "develop"}) {
