@@ -47,13 +47,14 @@ kernel void darkness(image light, image seen, canvas out) {
   STORE(saturate(1.0f - share(LOAD(light), LOAD(seen))), out);
 }
 
-// The blurred depth test: v = 1 - smoothstep(0, d, z - blur(z)). Luft and Deussen 2006. A pixel
-// that sees nothing, but that paint may reach, is as far as what is `near` it.
-kernel void visibility(image seen, image far, image seen_near, image far_near, image seen_around,
-                       image far_around, float reach, canvas out) {
-  const real part = LOAD(seen), part_around = LOAD(seen_around);
-  const real z = blend(share(LOAD(far_near), LOAD(seen_near)), LOAD(far), part);
-  const real behind = z - share(LOAD(far_around), part_around);
+// What a pixel sees and, where it sees nothing but paint may reach, what its neighbours do.
+kernel void extend(image seen, image value, image seen_near, image value_near, canvas out) {
+  STORE(blend(share(LOAD(value_near), LOAD(seen_near)), LOAD(value), LOAD(seen)), out);
+}
+
+// The blurred depth test: v = 1 - smoothstep(0, d, z - blur(z)). Luft and Deussen 2006.
+kernel void visibility(image far, image seen_around, image far_around, float reach, canvas out) {
+  const real behind = LOAD(far) - share(LOAD(far_around), LOAD(seen_around));
   STORE(1.0f - smooth(REAL(0.0f), REAL(reach), behind), out);
 }
 
@@ -96,13 +97,13 @@ kernel void dilute(canvas density, image turbulence, image dark, float turbulent
   STORE(LOAD(density) * fmax(stirred, REAL(0.1f)) * (1.0f - dilution * bright), density);
 }
 
-// Pigment settles in the valleys of the paper, the more the denser it is (Montesdeoca et al. 2017),
-// and is dispersed in specks (Bousseau et al. 2006).
+// Pigment settles in the valleys of the paper, the more the denser it is: a (1 - h), Montesdeoca et
+// al. 2017, less what the peaks lose. It is dispersed in specks (Bousseau et al. 2006).
 kernel void granulate(canvas density, image height, image speckle, float granulation,
                       float dispersion) {
   const real d = LOAD(density);
-  const real valley = 1.0f - 2.0f * LOAD(height);
-  const real more = saturate(d) * fma(REAL(granulation), valley, dispersion * LOAD(speckle));
+  const real settled = granulation * (0.65f - LOAD(height));
+  const real more = saturate(d) * fma(REAL(dispersion), LOAD(speckle), settled);
   STORE(d * fmax(1.0f + more, REAL(0.4f)), density);
 }
 

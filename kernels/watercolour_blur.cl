@@ -1,20 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // A blur along the columns whose result is turned, columns into rows: twice is a blur both ways and
-// the picture upright again, and every load is of whole vectors.
+// the picture upright again.
 //
-// A work-item takes a square of LANES x LANES.
-// Global size: pitch / LANES, pitch_turned / LANES.
+// weights: of a pixel itself and of its neighbours up to `reach`; rows: of the picture, beyond
+// which its first and last row go on. Global size: pitch / LANES, pitch_turned / LANES. On CPUs a
+// work-item takes a square, so that it loads whole vectors, and the local size is 1.
 #include "watercolour.clh"
 
-// Rows that are summed side by side, so that sums need not wait for each other.
 #if LANES == 16
-#define ROWS 4
-#else
-#define ROWS 1
-#endif
 
-// weights: of the row itself and of its neighbours up to `reach`; rows: of the picture, beyond
-// which its first and last row go on; window: LANES + 2 * reach of real.
+#define SIDE_BY_SIDE 4  // sums that need not wait for each other
+
+// window: LANES + 2 * reach of real.
 kernel void blur(image in, int pitch, int rows, constant float* weights, int reach,
                  local real* window, global float* out, int pitch_turned) {
   const int x = get_global_id(0), y = get_global_id(1) * LANES;
@@ -22,18 +19,20 @@ kernel void blur(image in, int pitch, int rows, constant float* weights, int rea
     window[k] = in[clamp(y + k - reach, 0, rows - 1) * (pitch / LANES) + x];
   }
   float square[LANES * LANES] __attribute__((aligned(64)));
-  for (int k = 0; k < LANES; k += ROWS) {
+  for (int k = 0; k < LANES; k += SIDE_BY_SIDE) {
     local const real* middle = window + k + reach;
-    real sum[ROWS];
+    real sum[SIDE_BY_SIDE];
 #pragma unroll
-    for (int r = 0; r < ROWS; ++r) sum[r] = weights[0] * middle[r];
+    for (int r = 0; r < SIDE_BY_SIDE; ++r) sum[r] = weights[0] * middle[r];
     for (int j = 1; j <= reach; ++j) {
       const real weight = weights[j];
 #pragma unroll
-      for (int r = 0; r < ROWS; ++r) sum[r] = fma(weight, middle[r - j] + middle[r + j], sum[r]);
+      for (int r = 0; r < SIDE_BY_SIDE; ++r) {
+        sum[r] = fma(weight, middle[r - j] + middle[r + j], sum[r]);
+      }
     }
 #pragma unroll
-    for (int r = 0; r < ROWS; ++r) ((real*)square)[k + r] = sum[r];
+    for (int r = 0; r < SIDE_BY_SIDE; ++r) ((real*)square)[k + r] = sum[r];
   }
   for (int lane = 0; lane < LANES; ++lane) {
     for (int k = 0; k < LANES; ++k) {
@@ -41,3 +40,20 @@ kernel void blur(image in, int pitch, int rows, constant float* weights, int rea
     }
   }
 }
+
+#else
+
+// window: not used.
+kernel void blur(image in, int pitch, int rows, constant float* weights, int reach,
+                 local real* window, global float* out, int pitch_turned) {
+  (void)window;
+  const int x = get_global_id(0), y = get_global_id(1);
+  real sum = weights[0] * in[min(y, rows - 1) * pitch + x];
+  for (int j = 1; j <= reach; ++j) {
+    const real above = in[clamp(y - j, 0, rows - 1) * pitch + x];
+    sum = fma(weights[j], above + in[min(y + j, rows - 1) * pitch + x], sum);
+  }
+  out[x * pitch_turned + y] = sum;
+}
+
+#endif

@@ -110,20 +110,19 @@ kernel void ground(int pitch, float size, float foot_x, float foot_y, float reac
   STORE(1.0f - sqrt(fma(dx, dx, dy * dy)) + 0.8f * streaks, out);
 }
 
-// Noise at points of the tree, which are sums over `seen` of a pixel: `turbulence` of the pigment,
+// Noise at points (x, y, z) of the tree, where `near` is not 0: `turbulence` of the pigment,
 // `warmth` at the crown's scale, `breaking` of edges into leaves, `wetness` in patches; all about
-// -1..1. scale: cells of the turbulence in a unit of the scene.
-kernel void flow(image seen, image x, image y, image z, float scale, float leaf_scale, uint seed,
+// -1..1. scale, leaf_scale: cells of the turbulence and of leaves in a unit of the scene.
+kernel void flow(image near, image x, image y, image z, float scale, float leaf_scale, uint seed,
                  canvas turbulence, canvas warmth, canvas breaking, canvas wetness) {
-  const real part = LOAD(seen);
-  if (!ANY(part > REAL(0.0f))) {
+  if (!ANY(LOAD(near) > REAL(0.0f))) {
     STORE(REAL(0.0f), turbulence);
     STORE(REAL(0.0f), warmth);
     STORE(REAL(0.0f), breaking);
     STORE(REAL(0.0f), wetness);
     return;
   }
-  const real px = share(LOAD(x), part), py = share(LOAD(y), part), pz = share(LOAD(z), part);
+  const real px = LOAD(x), py = LOAD(y), pz = LOAD(z);
   real sum[4] = {REAL(0.0f), REAL(0.0f), REAL(0.0f), REAL(0.0f)};
   const float scales[8] = {scale,        2.1f * scale, 4.3f * scale,      0.45f * scale,
                            1.1f * scale, leaf_scale,   2.2f * leaf_scale, 0.8f * scale};

@@ -101,9 +101,9 @@ struct PictureOptions {
   Look look = Look::phong;
   int width = 1024, height = 1024;  ///< pixels, 1 to kLargestSide each
   std::variant<Viewpoint, View> camera = Viewpoint::three_quarter;
-  double turn = 0;         ///< of the camera about the subject, in whole turns
-  bool turntable = false;  ///< a named viewpoint holds the subject at every turn
-  WatercolourStyle style;  ///< none: the default one
+  double turn = 0;              ///< of the camera about the subject, in whole turns
+  bool turntable = false;       ///< a named viewpoint holds the subject at every turn
+  WatercolourStyle style = {};  ///< none: the default one
 };
 
 inline constexpr int kLargestSide = 16384;

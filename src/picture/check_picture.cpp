@@ -11,8 +11,8 @@
 namespace leafhull {
 namespace {
 
-// Measured at 2048x2048 and 4096x4096: what pixels see, the picture and its file; the planes that
-// watercolour's passes keep on the device.
+// Measured at 2048x2048 and 4096x4096. On the host 70 for what pixels see, 60 for an .exr file, and
+// what edges take; on the device 150 for the planes of a watercolour.
 constexpr double kHostBytes = 160, kPaintBytes = 160;
 
 std::string size_text(int width, int height) {

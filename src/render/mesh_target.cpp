@@ -3,6 +3,10 @@
 
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
+#include <array>
+#include <optional>
+
 #include "render/light.h"
 #include "render/sampling.h"
 
@@ -12,8 +16,8 @@ namespace {
 constexpr std::size_t kGrain = 64;  // rays that one thread takes at a time
 
 template <class Function>
-void for_each_ray(std::span<const Ray> rays, Function&& function) {
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, rays.size(), kGrain), [&](const auto& some) {
+void for_each(std::size_t count, Function&& function) {
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, kGrain), [&](const auto& some) {
     for (std::size_t i = some.begin(); i != some.end(); ++i) function(i);
   });
 }
@@ -28,15 +32,20 @@ Spot spot_of(const Hit& hit) {
 }  // namespace
 
 void MeshTarget::closest(std::span<const Ray> rays, std::span<Spot> spots) const {
-  for_each_ray(rays, [&](std::size_t i) {
-    const std::optional<Hit> hit = scene_.closest(rays[i].origin, rays[i].direction);
-    spots[i] = hit ? spot_of(*hit) : Spot{};
+  constexpr std::size_t kPacket = Scene::kPacket;
+  tbb::parallel_for(std::size_t{0}, (rays.size() + kPacket - 1) / kPacket, [&](std::size_t packet) {
+    const std::size_t first = packet * kPacket, count = std::min(kPacket, rays.size() - first);
+    std::array<std::optional<Hit>, kPacket> hits;
+    scene_.closest(rays.subspan(first, count), std::span(hits).first(count));
+    for (std::size_t i = 0; i < count; ++i) {
+      spots[first + i] = hits[i] ? spot_of(*hits[i]) : Spot{};
+    }
   });
 }
 
 void MeshTarget::occluded(std::span<const Ray> rays, float reach,
                           std::span<std::uint8_t> answers) const {
-  for_each_ray(rays, [&](std::size_t i) {
+  for_each(rays.size(), [&](std::size_t i) {
     answers[i] = scene_.occluded(rays[i].origin, rays[i].direction, reach);
   });
 }
@@ -44,14 +53,16 @@ void MeshTarget::occluded(std::span<const Ray> rays, float reach,
 void MeshSurroundings::openness(std::span<const Spot> spots, std::span<const std::uint8_t> turns,
                                 std::span<float> open) const {
   const std::vector<Vec2f> directions = sobol_points(kTurns, 2);
+  std::vector<Vec3f> towards(spots.size());
+  for_each(spots.size(), [&](std::size_t i) {
+    if (spots[i].hit()) towards[i] = cosine_direction(spots[i].normal, directions[turns[i]]);
+  });
   std::vector<Ray> rays;
   std::vector<std::size_t> asked;
   for (std::size_t i = 0; i < spots.size(); ++i) {
     open[i] = 0;
-    if (!spots[i].hit()) continue;
-    const Vec3f direction = cosine_direction(spots[i].normal, directions[turns[i]]);
-    if (dot(direction, spots[i].face_normal) <= 0) continue;
-    rays.push_back({spots[i].position, direction});
+    if (!(dot(towards[i], spots[i].face_normal) > 0)) continue;
+    rays.push_back({spots[i].position, towards[i]});
     asked.push_back(i);
   }
   const std::vector<std::uint8_t> hidden = render::occluded(targets_, rays, kSkyReach);

@@ -76,14 +76,41 @@ std::optional<Hit> Scene::closest(Vec3f origin, Vec3f direction) const {
   ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   rtcIntersect1(scene_.get(), &context, &ray);
   if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+  return hit_of(origin, direction, ray.hit, ray.ray.tfar);
+}
 
-  const Surface& surface = *surfaces_[ray.hit.geomID];
-  const RTCHit& hit = ray.hit;
+void Scene::closest(std::span<const Ray> rays, std::span<std::optional<Hit>> hits) const {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  alignas(64) std::array<int, kPacket> valid{};
+  RTCRayHit16 packet{};
+  for (unsigned i = 0; i < rays.size(); ++i) {
+    valid[i] = -1;
+    const auto& [origin, direction] = rays[i];
+    RTCRay16& lanes = packet.ray;
+    lanes.org_x[i] = origin.x, lanes.org_y[i] = origin.y, lanes.org_z[i] = origin.z;
+    lanes.dir_x[i] = direction.x, lanes.dir_y[i] = direction.y, lanes.dir_z[i] = direction.z;
+    lanes.tnear[i] = kNear, lanes.tfar[i] = HUGE_VALF;
+    lanes.mask[i] = ~0u;
+    packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+  }
+  rtcIntersect16(valid.data(), scene_.get(), &context, &packet);
+  for (unsigned i = 0; i < rays.size(); ++i) {
+    hits[i].reset();
+    const RTCHit hit = rtcGetHitFromHitN(reinterpret_cast<RTCHitN*>(&packet.hit), kPacket, i);
+    if (hit.geomID == RTC_INVALID_GEOMETRY_ID) continue;
+    hits[i] = hit_of(rays[i].origin, rays[i].direction, hit, packet.ray.tfar[i]);
+  }
+}
+
+Hit Scene::hit_of(Vec3f origin, Vec3f direction, const RTCHit& hit, float distance) const {
+  const Surface& surface = *surfaces_[hit.geomID];
   const Vec3f stored_face = normalized(Vec3f{hit.Ng_x, hit.Ng_y, hit.Ng_z});
   const Vec3f face_normal = dot(stored_face, direction) > 0 ? -stored_face : stored_face;
   const std::array<Vec3f, 3> normals = corner_normals(surface, hit.primID, face_normal);
   const std::array<float, 3> weights{1 - hit.u - hit.v, hit.u, hit.v};
-  const Vec3f flat = origin + direction * ray.ray.tfar;
+  const Vec3f flat = origin + direction * distance;
   Vec3f position = flat, normal;
   // Source: J. Hanika, "Hacking the Shadow Terminator", Ray Tracing Gems II, 2021.
   for (int corner = 0; corner < 3; ++corner) {
@@ -92,8 +119,9 @@ std::optional<Hit> Scene::closest(Vec3f origin, Vec3f direction) const {
     position = position - normals[corner] * (below * weights[corner]);
     normal = normal + normals[corner] * weights[corner];
   }
-  return Hit{position, normalized(normal), face_normal, surface.uv(hit.primID, {hit.u, hit.v}),
-             &surface, ray.ray.tfar};
+  return {position,    normalized(normal),
+          face_normal, surface.uv(hit.primID, {hit.u, hit.v}),
+          &surface,    distance};
 }
 
 bool Scene::occluded(Vec3f origin, Vec3f direction, float distance) const {

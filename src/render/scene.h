@@ -3,10 +3,12 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "render/embree.h"
 #include "render/surface.h"
+#include "render/target.h"
 
 namespace leafhull::render {
 
@@ -29,9 +31,14 @@ class Scene {
         Build build = Build::careful);
 
   std::optional<Hit> closest(Vec3f origin, Vec3f direction) const;
+  /// Of up to kPacket rays that are neighbours, which is faster than one by one.
+  void closest(std::span<const Ray> rays, std::span<std::optional<Hit>> hits) const;
+  static constexpr std::size_t kPacket = 16;
   bool occluded(Vec3f origin, Vec3f direction, float distance) const;
 
  private:
+  Hit hit_of(Vec3f origin, Vec3f direction, const RTCHit& hit, float distance) const;
+
   std::vector<std::shared_ptr<const Surface>> surfaces_;  ///< by Embree's geometry id
   SceneHandle scene_;
 };

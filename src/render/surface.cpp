@@ -17,9 +17,12 @@ std::array<Vec3d, 3> cofactors(const Transform& m) {
 
 void pass_holes(const RTCFilterFunctionNArguments* args) {
   const auto& surface = *static_cast<const Surface*>(args->geometryUserPtr);
-  const unsigned triangle = RTCHitN_primID(args->hit, args->N, 0);
-  const Vec2f at{RTCHitN_u(args->hit, args->N, 0), RTCHitN_v(args->hit, args->N, 0)};
-  if (surface.is_hole(surface.uv(triangle, at))) args->valid[0] = 0;
+  for (unsigned i = 0; i < args->N; ++i) {
+    if (!args->valid[i]) continue;
+    const unsigned triangle = RTCHitN_primID(args->hit, args->N, i);
+    const Vec2f at{RTCHitN_u(args->hit, args->N, i), RTCHitN_v(args->hit, args->N, i)};
+    if (surface.is_hole(surface.uv(triangle, at))) args->valid[i] = 0;
+  }
 }
 
 /// Gives the surface its triangles; `position(i)` is vertex i in model space.

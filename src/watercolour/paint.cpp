@@ -7,14 +7,19 @@
 #include <cmath>
 #include <optional>
 
-#include "device/opencl.h"
+#include "device/engine.h"
 #include "leafhull/error.h"
 #include "watercolour/passes.h"
 
 namespace leafhull::watercolour {
 namespace {
 
-constexpr float kWrap = 0.25f;        // how far light reaches around a mass
+constexpr std::size_t kMostPlanes = 40;  // at a time
+
+constexpr float kWrap = 0.25f;            // how far light reaches around a mass
+constexpr float kNeighbourhood = 0.006f;  // of the picture's height
+constexpr float kWoodMelts = 0.6f;        // behind foliage: its own lines are lost last
+constexpr float kAntialias = 0.7f;        // pixels
 constexpr float kBroad = 1.6f;        // of the brush that breaks edges, in strokes of single leaves
 constexpr float kSoftness = 0.0008f;  // of what it leaves, of the picture's height
 constexpr float kLeafScale = 45;      // leaf-sized cells that break edges, in the scene
@@ -66,51 +71,54 @@ class Painting {
 
   std::vector<std::uint8_t> paint(std::span<const Stroke> leaves) {
     const SeenPlanes seen = passes_.see(buffers_, style_.sky, kWrap);
-    const Plane foliage = passes_.upload(buffers_.foliage), wood = passes_.upload(buffers_.wood);
     const Plane everywhere = passes_.constant(1);
-    const Plane outline = blurred(foliage, style_.ambient);
-    look_around(seen);
-    const Leaves strokes = look_at_leaves(leaves, outline);
-
-    const float melting_width = style_.melting_width * unit_;
-    const Plane sharply_visible =
-        passes_.visibility(seen, around_, passes_.blur(seen.seen, melting_width),
-                           passes_.blur(seen.far, melting_width), style_.melting);
-    const Plane visible = passes_.blur(sharply_visible, style_.melting_softness * unit_);
-    const Plane reserved = passes_.mask(everywhere, visible, style_.gaps);
+    const Plane visible = look_around(seen);
+    const Plane outline = blurred(passes_.upload(buffers_.foliage), style_.ambient);
+    const Plane wood = blurred(passes_.upload(buffers_.wood), style_.wood);
+    const Plane single_leaves = look_at_leaves(leaves, outline);
 
     if (const std::optional<Foot> foot = find_foot(buffers_)) {
-      const float reach = style_.ground_reach * foot->crown;
-      lay(style_.ground,
-          passes_.ground(unit_, {foot->x + 0.3f * reach, foot->y}, {reach, 0.14f * reach},
-                         style_.seed),
-          everywhere);
+      lay(style_.ground, ground_around(*foot), everywhere);
     }
-    // Wood first: foliage is painted over its edges.
-    const Plane bark =
-        lay(style_.wood, blurred(wood, style_.wood), passes_.mask(everywhere, visible, 0.6f));
+    const Plane bark = lay(style_.wood, wood, passes_.mask(everywhere, visible, kWoodMelts));
     lay(style_.wood_shadow, dark(seen, style_.wood_shadow), bark);
 
-    const Plane crown = lay(style_.ambient, outline, reserved);
-    const Plane bare = passes_.darkness(wood, everywhere);
-    const Plane inside = passes_.mask(passes_.mask(crown, visible, 1), bare, 1);
+    const Plane crown =
+        lay(style_.ambient, outline, passes_.mask(everywhere, visible, style_.gaps));
+    const Plane inside = passes_.mask(passes_.mask(crown, visible, 1), unlike(wood), 1);
     lay(style_.tone, dark(seen, style_.tone), inside);
     run_together(crown);
     lay(style_.shadow, dark(seen, style_.shadow), inside);
-    if (strokes.single) lay(style_.leaves, strokes.single, everywhere);
+    if (single_leaves) lay(style_.leaves, single_leaves, everywhere);
     return passes_.develop(absorbance_, paper_.relief, style_.paper, style_.relief);
   }
 
  private:
-  /// Neighbourhoods, so that what depends on places goes on softly beyond the silhouette.
-  void look_around(const SeenPlanes& seen) {
-    const float sigma = 0.006f * unit_;
-    around_ = {passes_.blur(seen.seen, sigma), passes_.blur(seen.light, sigma),
-               passes_.blur(seen.far, sigma),  passes_.blur(seen.x, sigma),
-               passes_.blur(seen.y, sigma),    passes_.blur(seen.z, sigma)};
-    flow_ = passes_.flow(around_, style_.eddies, kLeafScale, style_.seed);
-    dark_around_ = passes_.darkness(around_.light, around_.seen);
+  /// Finds the noise and the darkness of places, going on softly beyond the silhouette, and returns
+  /// how visible they are beside what lies before them.
+  Plane look_around(const SeenPlanes& seen) {
+    const float sigma = kNeighbourhood * unit_;
+    const Plane near = passes_.blur(seen.seen, sigma);
+    const auto extended = [&](const Plane& plane) {
+      return passes_.extend(seen.seen, plane, near, passes_.blur(plane, sigma));
+    };
+    const std::array<Plane, 3> places{extended(seen.x), extended(seen.y), extended(seen.z)};
+    flow_ = passes_.flow(near, places, style_.eddies, kLeafScale, style_.seed);
+    dark_ = passes_.darkness(passes_.blur(seen.light, sigma), near);
+
+    const float width = style_.melting_width * unit_;
+    const Plane visible = passes_.visibility(extended(seen.far), passes_.blur(seen.seen, width),
+                                             passes_.blur(seen.far, width), style_.melting);
+    return passes_.blur(visible, std::max(kAntialias, style_.melting_softness * unit_));
   }
+
+  Plane ground_around(const Foot& foot) {
+    const float reach = style_.ground_reach * foot.crown;
+    return passes_.ground(unit_, {foot.x + 0.3f * reach, foot.y}, {reach, 0.14f * reach},
+                          style_.seed);
+  }
+
+  Plane unlike(const Plane& plane) { return passes_.darkness(plane, passes_.constant(1)); }
 
   Plane blurred(const Plane& plane, const Wash& wash) {
     return passes_.blur(plane, wash.size * unit_);
@@ -130,10 +138,10 @@ class Painting {
     edge.dryness = wash.dry_brush * style_.roughness;
     edge.wobble = style_.wobble;
     edge.raggedness = wash.raggedness;
-    const Plane alpha = passes_.layer(rho, within, paper_, flow_, edge);
+    Plane alpha = passes_.layer(rho, within, paper_, flow_, edge);
     const Plane around = passes_.blur(alpha, style_.edge_width * unit_);
     const Plane density = passes_.darken_edges(alpha, around, wash.edge_darkening);
-    passes_.dilute(density, flow_.turbulence, dark_around_, style_.turbulence, style_.backruns,
+    passes_.dilute(density, flow_.turbulence, dark_, style_.turbulence, style_.backruns,
                    &wash == &style_.ambient ? style_.dilution : 0);
     passes_.granulate(density, paper_, wash.granulation * style_.roughness, style_.dispersion);
     const Vec3f cool = absorbance(wash.cool), warm = absorbance(wash.warm);
@@ -151,15 +159,11 @@ class Painting {
     for (const Plane& plane : absorbance_) passes_.bleed(plane, passes_.blur(plane, sigma), wet);
   }
 
-  struct Leaves {
-    Plane single;  ///< leaves painted one by one, or none
-  };
-
-  /// Leaves as strokes of their own, and as what breaks the edges of washes.
-  Leaves look_at_leaves(std::span<const Stroke> leaves, const Plane& outline) {
+  /// Lets leaves break the edges of washes, and returns the strokes of single leaves, or none.
+  Plane look_at_leaves(std::span<const Stroke> leaves, const Plane& outline) {
     if (leaves.empty()) return {};
     const std::vector<float> outline_here = passes_.download(outline);
-    const std::vector<float> dark_here = passes_.download(dark_around_);
+    const std::vector<float> dark_here = passes_.download(dark_);
     const Room room{buffers_.width, buffers_.height, outline_here, dark_here, buffers_.depth};
     const Brush brush{.size = style_.leaf_size,
                       .least = style_.leaf_width * unit_,
@@ -168,9 +172,9 @@ class Painting {
     Brush broad = brush;
     broad.size *= kBroad, broad.least *= kBroad, broad.most *= kBroad;
     flow_.breaking = passes_.blur(passes_.upload(break_edges(leaves, room, broad)),
-                                  std::max(0.7f, kSoftness * unit_));
+                                  std::max(kAntialias, kSoftness * unit_));
     if (style_.detail <= 0) return {};
-    return {passes_.upload(paint_leaves(leaves, room, brush, style_.detail))};
+    return passes_.upload(paint_leaves(leaves, room, brush, style_.detail));
   }
 
   Passes& passes_;
@@ -178,9 +182,8 @@ class Painting {
   const render::Buffers& buffers_;
   const Style& style_;
   float unit_;  ///< the picture's height, pixels
-  SeenPlanes around_;
   FlowPlanes flow_;
-  Plane dark_around_;
+  Plane dark_;
   std::array<Plane, 3> absorbance_;
 };
 
@@ -212,17 +215,35 @@ Painter::Painter(Device& device) : impl_(new Impl{device}) {}
 Painter::~Painter() = default;
 Painter::Painter(Painter&&) noexcept = default;
 
+std::size_t Painter::memory() const { return impl_->passes ? impl_->passes->memory() : 0; }
+
+std::size_t Painter::memory_of(int width, int height) {
+  return kMostPlanes * Passes::plane_bytes(width, height);
+}
+
 Picture Painter::paint(const render::Buffers& buffers, std::span<const Stroke> leaves,
                        const Style& style) {
+  Device::Engine& engine = impl_->device.engine();
+  const int width = buffers.width, height = buffers.height;
+  if (width < 1 || height < 1) throw Error(ErrorCode::usage, "a picture has at least one pixel");
+  const std::string what =
+      "a watercolour of " + std::to_string(width) + "x" + std::to_string(height);
   try {
+    if (memory_of(width, height) > engine.info.memory_bytes ||
+        Passes::plane_bytes(width, height) >
+            engine.device.getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>()) {
+      throw Error(ErrorCode::usage,
+                  what + " does not fit into the memory of '" + engine.info.name + "'",
+                  "Ask for a smaller picture.");
+    }
     impl_->prepare(buffers, style);
     Painting painting(*impl_->passes, impl_->paper, buffers, style);
-    return {buffers.width, buffers.height, painting.paint(leaves)};
+    return {width, height, painting.paint(leaves)};
   } catch (const cl::Error& error) {
+    clFinish(engine.queue());  // nothing may still use the buffers
     throw Error(ErrorCode::device,
-                "painting a watercolour of " + std::to_string(buffers.width) + "x" +
-                    std::to_string(buffers.height) + " failed on '" + impl_->device.info().name +
-                    "': " + error.what() + " returned " + std::to_string(error.err()),
+                what + " failed on '" + engine.info.name + "': " + error.what() + " returned " +
+                    std::to_string(error.err()),
                 "Try a smaller picture or another device (`leafhull devices`).");
   }
 }

@@ -22,8 +22,13 @@ class Painter {
 
   /// What `buffers` see, in watercolour. Lengths of the style scale with the picture's height.
   /// @param leaves the tree's leaves, in any order that is the same each time; may be empty
-  /// @throws Error device: out of memory, a kernel that does not build, a failing driver.
+  /// @throws Error usage: no pixels, or more than the device's memory holds; device: a kernel that
+  /// does not build, a failing driver.
   Picture paint(const render::Buffers& buffers, std::span<const Stroke> leaves, const Style& style);
+
+  /// Bytes of the device's memory that it holds, and that a picture needs at most.
+  std::size_t memory() const;
+  static std::size_t memory_of(int width, int height);
 
  private:
   struct Impl;

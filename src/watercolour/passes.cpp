@@ -50,25 +50,34 @@ struct PlaneMemory {
       : buffer(std::move(memory)), pool(std::move(from)) {}
   PlaneMemory(const PlaneMemory&) = delete;
   PlaneMemory& operator=(const PlaneMemory&) = delete;
-  ~PlaneMemory() { pool->push_back(buffer); }
+  ~PlaneMemory() { pool->push_back(std::move(buffer)); }  // there is room: see plane()
 
   cl::Buffer buffer;
   std::shared_ptr<Pool> pool;
 };
 
 struct Passes::Impl {
+  Impl(Device::Engine& on, int of_width, int of_height)
+      : engine(on),
+        width(of_width),
+        height(of_height),
+        pitch(padded(of_width)),
+        rows(padded(of_height)),
+        lanes(on.vector() ? 16 : 1) {}
+
   Device::Engine& engine;
-  int width, height;
-  int pitch = padded(width), rows = padded(height);
-  int lanes = engine.vector() ? 16 : 1;
+  int width, height, pitch, rows, lanes;
+  std::size_t planes = 0;  ///< in use or free
   std::shared_ptr<Pool> free = std::make_shared<Pool>();
-  std::map<std::string, cl::Kernel, std::less<>> kernels{};
-  std::map<float, cl::Buffer> weights{};  ///< by standard deviation
+  std::map<std::string, cl::Kernel, std::less<>> kernels;
+  std::map<float, cl::Buffer> weights;  ///< by standard deviation
 
   std::size_t values() const { return static_cast<std::size_t>(pitch) * rows; }
 
   Plane plane() {
     if (free->empty()) {
+      ++planes;
+      free->reserve(planes);
       free->emplace_back(engine.context, CL_MEM_READ_WRITE, values() * sizeof(float));
     }
     auto plane = std::make_shared<PlaneMemory>(free->back(), free);
@@ -107,27 +116,39 @@ struct Passes::Impl {
   /// The blur of the columns of `in`, turned.
   void blur_turning(const Plane& in, int in_pitch, int in_rows, int rows_within,
                     const cl::Buffer& weights, int reach, const Plane& out) {
-    launch("blur", cl::NDRange(in_pitch / lanes, in_rows / lanes), cl::NDRange(1, 1), in, in_pitch,
-           rows_within, weights, reach, cl::Local((lanes + 2 * reach) * lanes * sizeof(float)), out,
-           in_rows);
+    const cl::NDRange group = lanes > 1 ? cl::NDRange(1, 1) : cl::NDRange(kPadding, kPadding);
+    const std::size_t window = lanes > 1 ? lanes + 2 * reach : 1;
+    launch("blur", cl::NDRange(in_pitch / lanes, in_rows / lanes), group, in, in_pitch, rows_within,
+           weights, reach, cl::Local(window * lanes * sizeof(float)), out, in_rows);
   }
 };
 
 Passes::Passes(Device& device, int width, int height)
-    : impl_(new Impl{device.engine(), width, height}) {
+    : impl_(new Impl(device.engine(), width, height)) {
   Impl& d = *impl_;
-  const cl::Program program = d.engine.build(
-      {std::string(kernel_source_watercolour), std::string(kernel_source_watercolour_blur),
-       std::string(kernel_source_watercolour_noise)},
-      "-cl-std=CL1.2 -DLANES=" + std::to_string(d.lanes));
+  cl::Program::Sources sources;
+  for (const std::string_view source : {kernel_source_watercolour, kernel_source_watercolour_blur,
+                                        kernel_source_watercolour_noise}) {
+    sources.emplace_back(source);
+  }
+  const cl::Program program =
+      d.engine.build(sources, "-cl-std=CL1.2 -DLANES=" + std::to_string(d.lanes));
   for (const char* name :
-       {"paper", "ground", "flow", "blur", "see", "pad", "darkness", "visibility", "mask", "layer",
-        "darken_edges", "dilute", "granulate", "glaze", "wet", "bleed", "develop"}) {
+       {"paper", "ground", "flow", "blur", "see", "pad", "darkness", "extend", "visibility", "mask",
+        "layer", "darken_edges", "dilute", "granulate", "glaze", "wet", "bleed", "develop"}) {
     d.kernels.emplace(name, cl::Kernel(program, name));
   }
 }
 
 Passes::~Passes() = default;
+
+std::size_t Passes::memory() const {
+  return impl_->planes * plane_bytes(impl_->width, impl_->height);
+}
+
+std::size_t Passes::plane_bytes(int width, int height) {
+  return sizeof(float) * padded(width) * padded(height);
+}
 
 Plane Passes::constant(float value) {
   Plane out = impl_->plane();
@@ -184,11 +205,12 @@ Plane Passes::ground(float size, Vec2f foot, Vec2f reach, std::uint32_t seed) {
   return out;
 }
 
-FlowPlanes Passes::flow(const SeenPlanes& around, float eddies, float leaves, std::uint32_t seed) {
+FlowPlanes Passes::flow(const Plane& near, std::span<const Plane, 3> places, float eddies,
+                        float leaves, std::uint32_t seed) {
   Impl& d = *impl_;
   FlowPlanes out{d.plane(), d.plane(), d.plane(), d.plane()};
-  d.over_plane("flow", around.seen, around.x, around.y, around.z, eddies, leaves, seed,
-               out.turbulence, out.warmth, out.breaking, out.wetness);
+  d.over_plane("flow", near, places[0], places[1], places[2], eddies, leaves, seed, out.turbulence,
+               out.warmth, out.breaking, out.wetness);
   return out;
 }
 
@@ -216,11 +238,17 @@ Plane Passes::darkness(const Plane& light, const Plane& seen) {
   return out;
 }
 
-Plane Passes::visibility(const SeenPlanes& here, const SeenPlanes& near, const Plane& seen_around,
-                         const Plane& far_around, float reach) {
+Plane Passes::extend(const Plane& seen, const Plane& value, const Plane& seen_near,
+                     const Plane& value_near) {
   Plane out = impl_->plane();
-  impl_->over_plane("visibility", here.seen, here.far, near.seen, near.far, seen_around, far_around,
-                    reach, out);
+  impl_->over_plane("extend", seen, value, seen_near, value_near, out);
+  return out;
+}
+
+Plane Passes::visibility(const Plane& far, const Plane& seen_around, const Plane& far_around,
+                         float reach) {
+  Plane out = impl_->plane();
+  impl_->over_plane("visibility", far, seen_around, far_around, reach, out);
   return out;
 }
 

@@ -53,6 +53,10 @@ class Passes {
   Passes(Device& device, int width, int height);
   ~Passes();
 
+  /// Bytes of the planes that it holds, and of one.
+  std::size_t memory() const;
+  static std::size_t plane_bytes(int width, int height);
+
   Plane constant(float value);
   Plane upload(std::span<const float> values);
   std::vector<float> download(const Plane& plane);
@@ -62,13 +66,16 @@ class Passes {
   SeenPlanes see(const render::Buffers& buffers, float sky, float wrap);
   /// A patch around `foot`, 1 in its middle.
   Plane ground(float size, Vec2f foot, Vec2f reach, std::uint32_t seed);
-  FlowPlanes flow(const SeenPlanes& around, float eddies, float leaves, std::uint32_t seed);
+  FlowPlanes flow(const Plane& near, std::span<const Plane, 3> places, float eddies, float leaves,
+                  std::uint32_t seed);
 
   /// Gaussian, `sigma` in pixels.
   Plane blur(const Plane& in, float sigma);
   Plane darkness(const Plane& light, const Plane& seen);
-  Plane visibility(const SeenPlanes& here, const SeenPlanes& near, const Plane& seen_around,
-                   const Plane& far_around, float reach);
+  Plane extend(const Plane& seen, const Plane& value, const Plane& seen_near,
+               const Plane& value_near);
+  Plane visibility(const Plane& far, const Plane& seen_around, const Plane& far_around,
+                   float reach);
   /// `plane` where `by` is 1 or `amount` 0, else less.
   Plane mask(const Plane& plane, const Plane& by, float amount);
   Plane layer(const Plane& rho, const Plane& within, const PaperPlanes& paper,

@@ -50,7 +50,8 @@ void each_dab(const Stroke& stroke, const Brush& brush, Take&& take) {
   Vec2f major = stroke.half_major, minor = stroke.half_minor;
   if (norm(minor) > norm(major)) std::swap(major, minor);
   const float length = norm(major), width = norm(minor);
-  if (!(length > 0 && length < HUGE_VALF)) return;
+  const bool has_length = length > 0 && length < HUGE_VALF;
+  if (!has_length) return;
   const Vec2f along{major.x / length, major.y / length};
   const float half = std::clamp(brush.size * length, brush.least, brush.most);
   const float half_width = std::clamp(brush.size * width, kLeastWidth * half, half);
@@ -82,10 +83,11 @@ void each_dab(const Stroke& stroke, const Brush& brush, Take&& take) {
 std::optional<std::size_t> seen_at(const Dab& dab, const Room& room, const Brush& brush) {
   const Vec2f c = dab.centre;
   const auto width = static_cast<float>(room.width), height = static_cast<float>(room.height);
-  if (!(c.x >= 0 && c.y >= 0 && c.x < width && c.y < height)) return std::nullopt;
+  const bool inside = c.x >= 0 && c.y >= 0 && c.x < width && c.y < height;
+  if (!inside) return std::nullopt;
   const std::size_t at = static_cast<std::size_t>(c.y) * room.width + static_cast<std::size_t>(c.x);
-  if (!(dab.depth <= room.depth[at] + brush.tolerance)) return std::nullopt;
-  return at;
+  const bool before = dab.depth <= room.depth[at] + brush.tolerance;
+  return before ? std::optional(at) : std::nullopt;
 }
 
 /// Calls touch(pixel, coverage) for the pixels of a dab.
@@ -134,9 +136,10 @@ std::vector<float> paint_leaves(std::span<const Stroke> strokes, const Room& roo
       if (rank >= detail) return;
       const std::optional<std::size_t> at = seen_at(dab, room, brush);
       if (!at) return;
+      const float near = smooth(0, 0.1f, room.outline[*at]);
       const float edge = 1 - smooth(0.5f, 0.98f, room.outline[*at]);
       const float light = smooth(0.3f, 0.7f, 1 - room.dark[*at]);
-      const float wanted = detail * std::max(edge, 0.35f * light);
+      const float wanted = detail * near * std::max(edge, 0.35f * light);
       const float opacity = smooth(0, 0.1f, wanted - rank) * (0.6f + 0.4f * chance(dab.leaf, 1));
       if (opacity <= 0) return;
       cover(dab, room, [&](std::size_t pixel, float c) {

@@ -4,9 +4,10 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <iomanip>
 #include <nlohmann/json.hpp>
-#include <optional>
-#include <utility>
+#include <sstream>
+#include <type_traits>
 
 #include "leafhull/error.h"
 
@@ -22,7 +23,7 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr std::array<std::string_view, 3> kNames{"classic", "wet", "dry"};
-constexpr float kMostSeed = 4294967040.0f;  // the largest float below 2^32
+constexpr float kMostSeed = 1e6f;
 
 /// A file that is read, for messages.
 struct Source {
@@ -33,7 +34,10 @@ struct Source {
   }
 };
 
-std::string in_quotes(std::string_view name) { return "'" + std::string(name) + "'"; }
+std::string in_quotes(std::string_view name) {
+  std::string text = "'";
+  return text.append(name).append("'");
+}
 
 std::string names() {
   std::string text;
@@ -61,7 +65,7 @@ double parse_number(const Json& value, const StyleKey& key, const std::string& n
                 remedy);
   }
   const double number = value.get<double>();
-  if (!(number >= key.low && number <= key.high)) {
+  if (number < key.low || number > key.high) {
     source.fail("the key " + in_quotes(name) + " is out of range: " + value.dump(), remedy);
   }
   return number;
@@ -106,12 +110,14 @@ void read_wash(Wash& wash, const std::string& name, const Json& object, const So
                 "A wash is an object with some of the keys " + listing(wash_keys()) + ".");
   }
   for (const auto& [key, value] : object.items()) {
+    std::string full_name = name;
+    full_name.append(".").append(key);
     const StyleKey* row = find(wash_keys(), key);
     if (!row) {
-      source.fail("there is no key " + in_quotes(name + "." + key),
+      source.fail("there is no key " + in_quotes(full_name),
                   "A wash has the keys " + listing(wash_keys()) + ".");
     }
-    set(wash, *row, name + "." + key, value, source);
+    set(wash, *row, full_name, value, source);
   }
 }
 
@@ -161,7 +167,53 @@ std::string_view text_of(std::string_view name) {
               "There are: " + names() + ".");
 }
 
+/// @throws Error internal: a key is not there.
+void require_all_keys(const Json& json, std::string_view name) {
+  const auto require = [&](const Json& object, std::string_view key) {
+    if (object.contains(key)) return;
+    throw Error(ErrorCode::internal,
+                "the style " + in_quotes(name) + " lacks the key " + in_quotes(key));
+  };
+  for (const StyleKey& key : style_keys()) require(json, key.name);
+  for (const WashName& wash : wash_names()) {
+    require(json, wash.name);
+    for (const StyleKey& key : wash_keys()) require(json[std::string(wash.name)], key.name);
+  }
+}
+
+/// A row of the table; the value of a colour as style files give it.
+template <class Target>
+std::string table_row(const StyleKey& key, const std::string& name, const Target& target) {
+  std::ostringstream row;
+  row << "| `" << name << "` | " << key.range << " | ";
+  if (const auto* color = std::get_if<Vec3f Target::*>(&key.member)) {
+    const Vec3f c = target.*(*color);
+    row << '#' << std::hex << std::setfill('0');
+    for (const float part : {c.x, c.y, c.z}) row << std::setw(2) << std::lround(255 * part);
+  } else if (const auto* number = std::get_if<float Target::*>(&key.member)) {
+    row << target.*(*number);
+  } else if constexpr (std::is_same_v<Target, Style>) {
+    row << target.seed;
+  }
+  row << " | " << key.help << " |\n";
+  return row.str();
+}
+
 }  // namespace
+
+std::string style_table() {
+  const Style style = shipped_style(kNames[0]);
+  std::string table = "| key | range | default | |\n|---|---|---|---|\n";
+  for (const StyleKey& key : style_keys()) table += table_row(key, std::string(key.name), style);
+  for (const WashName& wash : wash_names()) {
+    for (const StyleKey& key : wash_keys()) {
+      std::string name(wash.name);
+      name.append(".").append(key.name);
+      table += table_row(key, name, style.*(wash.wash));
+    }
+  }
+  return table;
+}
 
 std::span<const std::string_view> style_names() { return kNames; }
 
@@ -170,7 +222,9 @@ Style shipped_style(std::string_view name) {
   if (name != kNames[0]) return parse_style(text, std::string(name));
   Style style;
   const Source source{std::string(name)};
-  read_style(style, parse_json(text, source), source);
+  const Json json = parse_json(text, source);
+  require_all_keys(json, name);
+  read_style(style, json, source);
   return style;
 }
 
@@ -184,7 +238,7 @@ Style parse_style(std::string_view text, const std::string& file) {
 
 std::span<const StyleKey> style_keys() {
   static const StyleKey keys[] = {
-      {"seed", "[0, 4294967040]", "another paper and other patches", &Style::seed, 0, kMostSeed},
+      {"seed", "[0, 1000000]", "another paper and other patches", &Style::seed, 0, kMostSeed},
       {"paper", "a colour", "the paper's colour", &Style::paper},
       {"grain", "[0.001, 0.1]", "the width of the paper's grain", &Style::grain, 0.001f, 0.1f},
       {"roughness", "[0, 3]", "how much of its grain the paint feels", &Style::roughness, 0, 3},

@@ -78,6 +78,9 @@ struct WashName {
 };
 std::span<const WashName> wash_names();
 
+/// The keys, their ranges, defaults and meaning as a Markdown table.
+std::string style_table();
+
 /// The style that a JSON text describes; what it leaves out stays as in the shipped style that its
 /// key "base" names, without one `classic`.
 /// @param file its name, for messages.

@@ -260,6 +260,56 @@ TEST_F(RenderMesh, TheSkyIsHiddenWhereSomethingIsNear) {
   }
 }
 
+TEST_F(RenderMesh, RaysInPacketsFindWhatSingleRaysFind) {
+  const Camera camera = from_front(2.2);
+  std::vector<Ray> rays;
+  for (int i = 0; i < 1000; ++i) {  // no whole number of packets, and some miss
+    rays.push_back({camera.eye, normalized(camera.direction(i % 40 / 40.0f, i / 25 / 40.0f))});
+  }
+  std::vector<Spot> spots(rays.size());
+  target_.closest(rays, spots);
+  int hits = 0;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    const std::optional<Hit> hit = scene_.closest(rays[i].origin, rays[i].direction);
+    ASSERT_EQ(spots[i].hit(), hit.has_value()) << i;
+    if (!hit) continue;
+    ++hits;
+    EXPECT_NEAR(spots[i].distance, hit->distance, 1e-5f);
+    EXPECT_LT(apart(spots[i].normal, hit->normal), 1e-4f);
+  }
+  EXPECT_GT(hits, 500);
+  EXPECT_LT(hits, 1000);
+}
+
+// A square of two by two texels, two of them holes.
+TEST(RenderLeaf, RaysPassThroughTheHolesOfATexture) {
+  TreeModel tree;
+  tree.images.push_back({2, 2, {0, 255, 0, 255, 0, 0, 0, 0, 0, 0, 0, 0, 255, 0, 0, 255}});
+  Material material;
+  material.alpha_mode = AlphaMode::mask;
+  material.base_color_image = 0;
+  tree.materials.push_back(material);
+  Primitive square;
+  square.material = 0;
+  square.positions = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+  square.uvs = {{0, 1}, {1, 1}, {1, 0}, {0, 0}};
+  square.triangles = {{0, 1, 2}, {0, 2, 3}};
+  tree.primitives.push_back(square);
+  tree.instances.push_back({});
+  const DeviceHandle embree = open_embree();
+  const Scene scene(embree.get(), {make_surface(embree.get(), tree, {}, Look::leaf, Placement{})});
+  const MeshTarget target(scene);
+  const std::array<const Target*, 1> targets{&target};
+  const Camera camera = from_front(2);
+  const Buffers buffers = draw(targets, camera, 16, 16, MeshSurroundings(targets));
+  const auto at = [&](float x, float y) { return pixel_of(camera, buffers, {x, y, 0}); };
+  EXPECT_EQ(buffers.object[at(-0.6f, 0.6f)], Object::foliage);
+  EXPECT_EQ(buffers.object[at(0.6f, -0.6f)], Object::foliage);
+  EXPECT_EQ(buffers.object[at(0.6f, 0.6f)], Object::paper);
+  EXPECT_EQ(buffers.object[at(-0.6f, -0.6f)], Object::paper);
+  EXPECT_LT(apart(buffers.color[at(-0.6f, 0.6f)], {0, 1, 0}), 0.01f);
+}
+
 TEST_F(RenderMesh, IsTheSameWithAnyNumberOfThreads) {
   const Camera camera = from_front(3);
   const MeshSurroundings sky(targets_);

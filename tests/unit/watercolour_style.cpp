@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
 
 #include "leafhull/error.h"
@@ -88,6 +89,17 @@ TEST(Style, EveryNumberHasItsRange) {
   for (const StyleKey& key : style_keys()) check(key, "{", "}");
   for (const StyleKey& key : wash_keys()) check(key, R"({"ground": {)", "}}");
   EXPECT_GT(numbers, 25);
+}
+
+TEST(Style, TheTableTellsEveryKeyItsRangeAndItsDefault) {
+  const std::string table = style_table();
+  for (const char* row : {"| `seed` | [0, 1000000] | 1 | ", "| `paper` | a colour | #fdfbf4 | ",
+                          "| `bleeding` | [0, 1] | 0.35 | ", "| `shadow.level` | [0, 1] | 0.75 | ",
+                          "| `ground.cool` | a colour | #b9c3d4 | "}) {
+    EXPECT_NE(table.find(row), std::string::npos) << row;
+  }
+  const auto rows = std::count(table.begin(), table.end(), '\n') - 2;
+  EXPECT_EQ(rows, style_keys().size() + wash_names().size() * wash_keys().size());
 }
 
 TEST(Style, ThereAreThreeAndTheyDiffer) {

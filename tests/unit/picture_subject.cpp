@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "leafhull/error.h"
+#include "leafhull/render.h"
+#include "picture/artist.h"
+#include "picture/parts.h"
+#include "render/buffers.h"
+#include "watercolour/style.h"
+
+namespace leafhull::test {
+namespace {
+
+constexpr Vec3d kMiddle{10, 20, 30};
+
+/// A cube of side 2.
+std::shared_ptr<const TreeModel> cube(const std::string& mesh_name = "abstract shape") {
+  TreeModel model;
+  Primitive& primitive = model.primitives.emplace_back();
+  primitive.mesh_name = mesh_name;
+  for (int corner = 0; corner < 8; ++corner) {
+    const auto side = [corner](int axis) { return corner >> axis & 1 ? 1.0f : -1.0f; };
+    primitive.positions.push_back(Vec3f(kMiddle) + Vec3f(side(0), side(1), side(2)));
+  }
+  primitive.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
+                         {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+  model.instances.push_back({0, "node", kIdentity});
+  return std::make_shared<const TreeModel>(std::move(model));
+}
+
+Device& device() {
+  static Device opened({});
+  return opened;
+}
+
+/// Two from its front face, which then fills half of the picture's height.
+PictureOptions facing_the_cube(int width, int height) {
+  PictureOptions options;
+  options.width = width, options.height = height;
+  options.camera = View{.eye = kMiddle + Vec3d(0, 0, 3), .target = kMiddle, .angle = 90};
+  return options;
+}
+
+int count_across(const render::Buffers& buffers, int row) {
+  const auto first = buffers.object.begin() + std::ptrdiff_t{row} * buffers.width;
+  return static_cast<int>(std::count(first, first + buffers.width, render::Object::foliage));
+}
+
+TEST(ShapeFiles, AreKnownByTheirNames) {
+  EXPECT_TRUE(is_shape(*cube()));
+  EXPECT_FALSE(is_shape(*cube("crown")));
+  TreeModel bare = *cube("");
+  EXPECT_FALSE(is_shape(bare)) << "its node has a name";
+  bare.instances.front().node_name.clear();
+  EXPECT_TRUE(is_shape(bare));
+  bare.materials.push_back({.name = "leaves"});
+  bare.primitives.front().material = 0;
+  EXPECT_FALSE(is_shape(bare));
+  TreeModel both = *cube();
+  both.primitives.push_back(cube("trunk")->primitives.front());
+  both.instances.push_back({1, "node", kIdentity});
+  EXPECT_FALSE(is_shape(both)) << "a tree beside its shape";
+}
+
+TEST(Views, HaveTheirAngleAlongTheHeight) {
+  const Subject subject = shape_subject(cube());
+  for (const auto [width, height] : {std::array{16, 16}, {64, 16}, {8, 16}}) {
+    const Rendering rendering = draw(subject, facing_the_cube(width, height), device());
+    EXPECT_FALSE(rendering.blank);
+    const render::Buffers& seen = *rendering.buffers;
+    EXPECT_EQ(count_across(seen, height / 2), std::min(width, 8));
+    EXPECT_EQ(count_across(seen, 3), 0);
+    EXPECT_EQ(count_across(seen, 4), std::min(width, 8));
+    EXPECT_EQ(count_across(seen, 12), 0);
+  }
+}
+
+TEST(Views, MayLookAway) {
+  PictureOptions options = facing_the_cube(9, 9);
+  std::get<View>(options.camera).target = kMiddle + Vec3d(0, 0, 9);
+  const Rendering rendering = draw(shape_subject(cube()), options, device());
+  EXPECT_TRUE(rendering.blank);
+  EXPECT_EQ(rendering.picture.rgb, std::vector<std::uint8_t>(3 * 81, 255));
+}
+
+TEST(Views, GoRoundTheMiddleOfTheSubject) {
+  const Subject subject = shape_subject(cube());
+  PictureOptions options = facing_the_cube(8, 8);
+  options.turntable = true;
+  const auto eye = [&](double turn) {
+    options.turn = turn;
+    const render::Camera camera = camera_of(subject.parts(), options);
+    return Vec3d(camera.eye) / subject.parts().placement.scale + kMiddle;
+  };
+  EXPECT_NEAR(length(eye(0) - (kMiddle + Vec3d(0, 0, 3))), 0, 1e-5);
+  EXPECT_NEAR(length(eye(0.25) - (kMiddle + Vec3d(3, 0, 0))), 0, 1e-5);
+  EXPECT_NEAR(length(eye(0.5) - (kMiddle + Vec3d(0, 0, -3))), 0, 1e-5);
+}
+
+TEST(Strokes, AreLeavesInPixels) {
+  Subject::Parts parts;  // a scene that is the model's space
+  parts.leaves = {{{0, 0, 0}, {1, 0, 0}, {0, 0.5f, 0}, 7},
+                  {{2, 1, 0}, {0, 0, 0.1f}, {0.1f, 0, 0}, 8},
+                  {{0, 0, 5}, {1, 0, 0}, {0, 1, 0}, 9}};
+  PictureOptions options;
+  options.camera = View{.eye = {0, 0, 4}, .target = {0, 0, 0}, .angle = 90};
+  const render::Camera camera = camera_of(parts, options);
+  const auto strokes = strokes_of(parts, camera, 800, 800);
+  ASSERT_EQ(strokes.size(), 2u) << "one is behind the camera";
+  const auto expect_near = [](Vec2f a, float x, float y) {
+    EXPECT_NEAR(a.x, x, 1e-2f);
+    EXPECT_NEAR(a.y, y, 1e-2f);
+  };
+  expect_near(strokes[0].centre, 400, 400);  // 100 pixels to a unit
+  expect_near(strokes[0].half_major, 100, 0);
+  expect_near(strokes[0].half_minor, 0, -50);
+  EXPECT_EQ(strokes[0].leaf, 7u);
+  EXPECT_NEAR(strokes[0].depth, 4, 1e-5f);
+  expect_near(strokes[1].centre, 600, 300);
+  expect_near(strokes[1].half_major, 200 * (4 / 3.9f - 1), -100 * (4 / 3.9f - 1));
+}
+
+class Trees : public testing::Test {
+ protected:
+  static std::shared_ptr<const TreeModel> tree() {
+    static const auto model =
+        std::make_shared<const TreeModel>(read_tree(std::string(LEAFHULL_EXAMPLES) + "/ash.glb"));
+    return model;
+  }
+  static const LeafSet& leaves() {
+    static const LeafSet found = find_leaves(*tree(), {});
+    return found;
+  }
+  static Options draft(Style style = Style::painterly) {
+    Options options;
+    options.style = style;
+    options.preset = Preset::draft;
+    return options;
+  }
+};
+
+TEST_F(Trees, HaveACardForEveryLeaf) {
+  const Subject subject = tree_subject(tree(), leaves(), draft(), Surfacing::mesh, device());
+  const Subject::Parts& parts = subject.parts();
+  ASSERT_EQ(parts.leaves.size(), leaves().leaf_count);
+  const LeafVertex& vertex = leaves().vertices.front();
+  const auto card = std::find_if(parts.leaves.begin(), parts.leaves.end(),
+                                 [&](const LeafCard& leaf) { return leaf.leaf == vertex.leaf; });
+  ASSERT_NE(card, parts.leaves.end());
+  const auto scale = static_cast<float>(parts.placement.scale);
+  EXPECT_NEAR(length(card->half_major), vertex.radius_major * scale, 1e-6f);
+  EXPECT_NEAR(length(card->half_minor), vertex.radius_minor * scale, 1e-6f);
+  EXPECT_LT(length(card->centre - parts.placement(vertex.position)),
+            4 * vertex.radius_major * scale);
+  EXPECT_GT(subject.report().threshold, 0);
+}
+
+TEST_F(Trees, DirectAndMeshSeeTheSame) {
+  PictureOptions options;
+  options.width = options.height = 160;
+  const auto seen = [&](Surfacing surfacing) {
+    const Subject subject = tree_subject(tree(), leaves(), draft(), surfacing, device());
+    return draw(subject, options, device()).buffers;
+  };
+  const auto direct = seen(Surfacing::direct), mesh = seen(Surfacing::mesh);
+  std::size_t same = 0, wood = 0;
+  for (std::size_t i = 0; i < direct->size(); ++i) {
+    same += direct->object[i] == mesh->object[i];
+    wood += direct->object[i] == render::Object::wood;
+  }
+  EXPECT_GT(static_cast<double>(same) / static_cast<double>(direct->size()), 0.99);
+  EXPECT_GT(wood, 100u);
+}
+
+TEST_F(Trees, StandInOneFrameTogether) {
+  const Frame frame = frame_of(leaves(), 5);
+  PictureOptions options;
+  const auto camera = [&](Style style) {
+    const Subject subject =
+        tree_subject(tree(), leaves(), draft(style), Surfacing::mesh, device(), {}, frame);
+    return camera_of(subject.parts(), options);
+  };
+  const render::Camera thin = camera(Style::thin), painterly = camera(Style::painterly);
+  EXPECT_EQ(thin.eye, painterly.eye);
+  EXPECT_EQ(thin.tan_x, painterly.tan_x);
+}
+
+TEST(PictureSizes, AreChecked) {
+  const auto expect_error = [](const PictureOptions& options, const DeviceInfo* info,
+                               const std::string& part) {
+    try {
+      check_picture(options, info);
+      ADD_FAILURE() << "no error with " << part;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::usage);
+      EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
+      EXPECT_FALSE(error.remedy().empty());
+    }
+  };
+  PictureOptions options;
+  EXPECT_NO_THROW(check_picture(options));
+  for (const auto [width, height] : {std::array{0, 5}, {5, 0}, {-1, 5}, {5, kLargestSide + 1}}) {
+    options.width = width, options.height = height;
+    expect_error(options, nullptr, "out of range");
+  }
+  options = {.look = Look::watercolour, .width = 2000, .height = 1000};
+  DeviceInfo gpu;
+  gpu.type = "GPU";
+  gpu.memory_bytes = std::size_t{1} << 27;
+  expect_error(options, &gpu, "device's memory");
+  try {
+    check_picture(options, &gpu);
+  } catch (const Error& error) {
+    const std::string& remedy = error.remedy();
+    ASSERT_EQ(std::sscanf(remedy.c_str() + remedy.find("--size"), "--size %dx%d", &options.width,
+                          &options.height),
+              2);
+  }
+  EXPECT_GT(options.width, 1000);
+  EXPECT_NEAR(options.width, 2 * options.height, 2);
+  EXPECT_NO_THROW(check_picture(options, &gpu)) << "the size that the remedy names";
+  options = {.width = 2000, .height = 1000};
+  EXPECT_NO_THROW(check_picture(options, &gpu)) << "shading takes none of the device's memory";
+}
+
+TEST(WatercolourStyles, TakeTheirDetailFromTheCall) {
+  EXPECT_EQ(watercolour_styles().front(), "classic");
+  EXPECT_EQ(read_watercolour_style("wet", 0.25)->detail, 0.25f);
+  EXPECT_NE(read_watercolour_style("wet")->seed, 0u);
+  EXPECT_THROW(read_watercolour_style("wett"), Error);
+}
+
+}  // namespace
+}  // namespace leafhull::test

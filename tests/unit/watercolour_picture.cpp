@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: Apache-2.0
+// Whole watercolours of a small made-up tree: a ball of foliage on a trunk, turned about its axis.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <numbers>
+
+#include "leafhull/error.h"
+#include "render/sampling.h"
+#include "watercolour/paint.h"
+
+namespace leafhull::watercolour {
+namespace {
+
+Device& device() {
+  static Device device({});
+  return device;
+}
+
+/// A ball around (0, 0.65, 0) of radius 0.3 over a trunk to the ground, seen from z.
+render::Buffers tree(int width, int height, float turn = 0) {
+  render::Buffers b;
+  b.resize(width, height);
+  b.to_light = normalized(Vec3f{-0.6f, 0.7f, 0.4f});
+  b.to_eye = {0, 0, 1};
+  const float c = std::cos(turn), s = std::sin(turn);
+  const auto in_scene = [&](Vec3f p) { return Vec3f{c * p.x + s * p.z, p.y, c * p.z - s * p.x}; };
+  for (int row = 0; row < height; ++row) {
+    for (int column = 0; column < width; ++column) {
+      const std::size_t i = static_cast<std::size_t>(row) * width + column;
+      const float unit = static_cast<float>(height);
+      const float x = (static_cast<float>(column) + 0.5f - 0.5f * static_cast<float>(width)) / unit;
+      const float y = 1 - (static_cast<float>(row) + 0.5f) / unit;
+      const float dy = y - 0.65f, z2 = 0.09f - x * x - dy * dy;
+      if (z2 > 0) {
+        const float z = std::sqrt(z2);
+        b.object[i] = render::Object::foliage, b.foliage[i] = 1;
+        b.normal[i] = Vec3f{x, dy, z} / 0.3f;
+        b.position[i] = in_scene({x, y, z});
+        b.depth[i] = 2 - z;
+      } else if (std::abs(x) < 0.03f && y > 0.1f && y < 0.5f) {
+        b.object[i] = render::Object::wood, b.wood[i] = 1;
+        b.normal[i] = {0, 0, 1}, b.position[i] = in_scene({x, y, 0}), b.depth[i] = 2;
+      } else {
+        continue;
+      }
+      b.key[i] = dot(b.normal[i], b.to_light) > 0 ? 1.0f : 0.0f;
+      b.open[i] = 0.5f + 0.5f * b.normal[i].y;
+    }
+  }
+  return b;
+}
+
+/// Leaves on the ball, as seen by `tree`.
+std::vector<Stroke> leaves(int width, int height, float turn = 0) {
+  std::vector<Stroke> strokes;
+  const auto unit = static_cast<float>(height);
+  for (std::uint32_t i = 0; i < 800; ++i) {
+    const Vec2f u = render::sobol(i, 9);
+    const float h = 2 * u.y - 1, r = std::sqrt(1 - h * h);
+    const float angle = 2 * std::numbers::pi_v<float> * u.x - turn;
+    const Vec3f p{0.3f * r * std::cos(angle), 0.65f + 0.3f * h, 0.3f * r * std::sin(angle)};
+    strokes.push_back({{0.5f * static_cast<float>(width) + p.x * unit, (1 - p.y) * unit},
+                       {0.01f * unit, 0},
+                       {0, 0.005f * unit},
+                       2 - p.z,
+                       i});
+  }
+  return strokes;
+}
+
+Picture paint(const render::Buffers& buffers, std::span<const Stroke> strokes, const Style& style) {
+  return Painter(device()).paint(buffers, strokes, style);
+}
+
+/// Mean absolute difference of two pictures, of 255.
+double difference(const Picture& a, const Picture& b) {
+  double sum = 0;
+  for (std::size_t i = 0; i < a.rgb.size(); ++i) sum += std::abs(a.rgb[i] - b.rgb[i]);
+  return sum / static_cast<double>(a.rgb.size());
+}
+
+/// The mean colour of a rectangle, its sides as parts of the picture's.
+Vec3f mean(const Picture& p, float left, float top, float right, float bottom) {
+  Vec3f sum;
+  float count = 0;
+  for (int y = static_cast<int>(top * p.height); y < static_cast<int>(bottom * p.height); ++y) {
+    for (int x = static_cast<int>(left * p.width); x < static_cast<int>(right * p.width); ++x) {
+      const std::uint8_t* c = &p.rgb[3 * (static_cast<std::size_t>(y) * p.width + x)];
+      sum = sum + Vec3f(c[0], c[1], c[2]), ++count;
+    }
+  }
+  return sum / count;
+}
+
+float grey(Vec3f c) { return (c.x + c.y + c.z) / 3; }
+
+TEST(Watercolour, IsTheSameEachTime) {
+  const render::Buffers b = tree(150, 130);
+  const std::vector<Stroke> strokes = leaves(150, 130);
+  for (const std::string_view name : style_names()) {
+    const Style style = shipped_style(name);
+    Painter painter(device());
+    const Picture first = painter.paint(b, strokes, style);
+    EXPECT_EQ(first.rgb, painter.paint(b, strokes, style).rgb) << name;
+    EXPECT_EQ(first.rgb, paint(b, strokes, style).rgb) << name;
+  }
+}
+
+TEST(Watercolour, IsItsSeedAndItsStyle) {
+  const render::Buffers b = tree(150, 130);
+  Style style = shipped_style("classic");
+  const Picture first = paint(b, {}, style);
+  style.seed = 2;
+  EXPECT_GT(difference(first, paint(b, {}, style)), 0.3);
+  EXPECT_GT(difference(first, paint(b, {}, shipped_style("wet"))), 1);
+}
+
+TEST(Watercolour, APainterGoesFromSizeToSize) {
+  const Style style = shipped_style("classic");
+  Painter painter(device());
+  const Picture small = painter.paint(tree(40, 50), {}, style);
+  painter.paint(tree(90, 70), {}, style);
+  EXPECT_EQ(small.rgb, painter.paint(tree(40, 50), {}, style).rgb);
+}
+
+TEST(Watercolour, NothingInViewIsPaper) {
+  render::Buffers b;
+  b.resize(64, 48);
+  b.to_light = b.to_eye = {0, 0, 1};
+  for (const std::string_view name : style_names()) {
+    const Picture p = paint(b, leaves(64, 48), shipped_style(name));
+    ASSERT_EQ(p.rgb.size(), 64u * 48 * 3);
+    for (const std::uint8_t v : p.rgb) ASSERT_GT(v, 215) << name;
+  }
+}
+
+TEST(Watercolour, AnySizeIsPainted) {
+  for (const auto [width, height] :
+       {std::array{1, 1}, {7, 3}, {3, 7}, {16, 16}, {17, 33}, {200, 9}}) {
+    const Picture p = paint(tree(width, height), leaves(width, height), shipped_style("classic"));
+    EXPECT_EQ(p.width, width);
+    EXPECT_EQ(p.height, height);
+    EXPECT_EQ(p.rgb.size(), std::size_t{3} * width * height);
+    EXPECT_GT(grey(mean(p, 0, 0, 1, 1)), 40);  // NaN would come out black
+  }
+}
+
+TEST(Watercolour, APictureFullOfFoliageIsGreen) {
+  render::Buffers b;
+  b.resize(50, 40);
+  b.to_light = b.to_eye = {0, 0, 1};
+  for (std::size_t i = 0; i < b.size(); ++i) {
+    b.object[i] = render::Object::foliage, b.foliage[i] = 1, b.depth[i] = 1;
+    b.normal[i] = {0, 0, 1}, b.position[i] = {static_cast<float>(i % 50) / 50, 0.5f, 0};
+    b.key[i] = 0, b.open[i] = 0.3f;
+  }
+  const Vec3f c = mean(paint(b, {}, shipped_style("classic")), 0.1f, 0.1f, 0.9f, 0.9f);
+  EXPECT_GT(c.y, c.x);
+  EXPECT_GT(c.y, c.z);
+  EXPECT_LT(grey(c), 180);
+  EXPECT_GT(grey(c), 40);  // no black
+}
+
+TEST(Watercolour, LightIsPaleAndShadowDark) {
+  const Picture p = paint(tree(256, 256), {}, shipped_style("classic"));
+  const Vec3f paper = mean(p, 0, 0, 0.1f, 0.1f);
+  const Vec3f light = mean(p, 0.34f, 0.2f, 0.44f, 0.3f),
+              shadow = mean(p, 0.54f, 0.46f, 0.66f, 0.55f);
+  EXPECT_GT(grey(paper), 240);
+  EXPECT_GT(grey(light), grey(shadow) + 40);
+  EXPECT_LT(grey(light), grey(paper));
+  EXPECT_GT(shadow.y, shadow.x);
+  // Warm lights take more of the blue than of the red; in cool shadows the two are closer.
+  const auto warmth = [&](Vec3f c) { return std::log(paper.z / c.z) / std::log(paper.x / c.x); };
+  EXPECT_GT(warmth(light), 1.5f);
+  EXPECT_LT(warmth(shadow), 0.75f * warmth(light));
+}
+
+TEST(Watercolour, ATwiceAsLargePictureLooksAlike) {
+  const Style style = shipped_style("classic");
+  const Picture small = paint(tree(192, 192), leaves(192, 192), style);
+  const Picture large = paint(tree(384, 384), leaves(384, 384), style);
+  for (int j = 0; j < 8; ++j) {
+    for (int i = 0; i < 8; ++i) {
+      const auto part = [&](const Picture& p) {
+        return grey(mean(p, i / 8.0f, j / 8.0f, (i + 1) / 8.0f, (j + 1) / 8.0f));
+      };
+      EXPECT_NEAR(part(small), part(large), 6) << i << " " << j;
+    }
+  }
+}
+
+/// What pigment does between two frames of a turn of one degree beyond what it would do if all its
+/// textures were left out.
+TEST(Watercolour, PigmentAndPaperDoNotSwim) {
+  constexpr int kSize = 256;
+  constexpr float kDegree = std::numbers::pi_v<float> / 180;
+  Style style = shipped_style("classic");
+  const auto change = [&](const Style& s) {
+    return difference(paint(tree(kSize, kSize), leaves(kSize, kSize), s),
+                      paint(tree(kSize, kSize, kDegree), leaves(kSize, kSize, kDegree), s));
+  };
+  // The same with new patches and a new paper for the second frame: what swimming noise would do.
+  Style other = style;
+  other.seed = style.seed + 1;
+  const double swimming =
+      difference(paint(tree(kSize, kSize), leaves(kSize, kSize), style),
+                 paint(tree(kSize, kSize, kDegree), leaves(kSize, kSize, kDegree), other));
+  const double coherent = change(style);
+  RecordProperty("coherent", std::to_string(coherent));
+  RecordProperty("swimming", std::to_string(swimming));
+  EXPECT_GT(coherent, 0);
+  EXPECT_LT(coherent, 0.4 * swimming);
+}
+
+TEST(Watercolour, MemoryIsWhatItSays) {
+  Painter painter(device());
+  EXPECT_EQ(painter.memory(), 0u);
+  Style style = shipped_style("wet");
+  style.detail = 1;
+  painter.paint(tree(200, 200), leaves(200, 200), style);
+  EXPECT_GT(painter.memory(), 0u);
+  EXPECT_LE(painter.memory(), Painter::memory_of(200, 200));
+  EXPECT_GE(painter.memory(), Painter::memory_of(200, 200) * 3 / 4);
+}
+
+TEST(Watercolour, SizesThatCannotBeAreRefused) {
+  const auto code = [](const render::Buffers& b) {
+    try {
+      paint(b, {}, shipped_style("classic"));
+    } catch (const Error& error) {
+      return error.code();
+    }
+    return ErrorCode::internal;
+  };
+  render::Buffers b;
+  EXPECT_EQ(code(b), ErrorCode::usage);
+  b.width = b.height = 1 << 20;  // told from the size alone
+  EXPECT_EQ(code(b), ErrorCode::usage);
+}
+
+}  // namespace
+}  // namespace leafhull::watercolour
