@@ -4,11 +4,12 @@
 // "Interactive Watercolor Rendering with Temporal Coherence and Abstraction", NPAR 2006; S. E.
 // Montesdeoca et al., "Edge- and Substrate-based Effects for Watercolor Stylization", 2017.
 //
-// Pigment is kept as its density d: light goes through twice and a pigment of colour C lets C^d
-// through (Beer and Lambert), so that C' = C^(1 + e) of the papers is d' = d (1 + e), and layers
+// Pigment is kept as its density d: one of colour C on white paper sends back C^d (Beer and
+// Lambert), so that C' = C^(1 + e) of the papers is d' = d (1 + e), and layers
 // over one another add up -d ln C.
 //
-// Global size: the values of a plane / LANES, but for `see` and `develop`: one work-item a pixel.
+// Global size: the values of a plane / LANES, but for `see`, `pad` and `develop`: one work-item a
+// pixel.
 #include "watercolour.clh"
 
 // Planes from what pixels see; sums over a pixel, so zero where it sees nothing. light: 0..1, of
