@@ -4,11 +4,12 @@
 // "Interactive Watercolor Rendering with Temporal Coherence and Abstraction", NPAR 2006; S. E.
 // Montesdeoca et al., "Edge- and Substrate-based Effects for Watercolor Stylization", 2017.
 //
-// Pigment is kept as its density d: light goes through twice and a pigment of colour C lets C^d
-// through (Beer and Lambert), so that C' = C^(1 + e) of the papers is d' = d (1 + e), and layers
+// Pigment is kept as its density d: one of colour C on white paper sends back C^d (Beer and
+// Lambert), so that C' = C^(1 + e) of the papers is d' = d (1 + e), and layers
 // over one another add up -d ln C.
 //
-// Global size: the values of a plane / LANES, but for `see` and `develop`: one work-item a pixel.
+// Global size: the values of a plane / LANES, but for `see`, `pad` and `develop`: one work-item a
+// pixel.
 #include "watercolour.clh"
 
 // Planes from what pixels see; sums over a pixel, so zero where it sees nothing. light: 0..1, of
@@ -108,7 +109,7 @@ kernel void granulate(canvas density, image height, image speckle, float granula
 }
 
 // Lays a layer over the ones before: absorbance += density * (-ln C), C between a cool and a warm
-// pigment. Its strength may vary with `by`.
+// pigment.
 kernel void glaze(image density, image warmth, float4 cool, float4 warm, float warm_cool,
                   canvas red, canvas green, canvas blue) {
   const real d = LOAD(density);
