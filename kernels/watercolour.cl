@@ -108,7 +108,7 @@ kernel void granulate(canvas density, image height, image speckle, float granula
 }
 
 // Lays a layer over the ones before: absorbance += density * (-ln C), C between a cool and a warm
-// pigment. Its strength may vary with `by`.
+// pigment.
 kernel void glaze(image density, image warmth, float4 cool, float4 warm, float warm_cool,
                   canvas red, canvas green, canvas blue) {
   const real d = LOAD(density);

@@ -9,6 +9,7 @@
 
 #include "device/engine.h"
 #include "leafhull/error.h"
+#include "watercolour/foot.h"
 #include "watercolour/passes.h"
 
 namespace leafhull::watercolour {
@@ -27,34 +28,6 @@ constexpr float kLeafScale = 45;      // leaf-sized cells that break edges, in t
 Vec3f absorbance(Vec3f color) {
   const auto of = [](float c) { return -std::log(std::max(c, 1 / 255.0f)); };
   return {of(color.x), of(color.y), of(color.z)};
-}
-
-/// Where the tree stands in the picture, and half the width of its crown; pixels.
-struct Foot {
-  float x, y, crown;
-};
-
-/// None where no wood is seen from the side.
-std::optional<Foot> find_foot(const render::Buffers& buffers) {
-  constexpr float kSteep = 0.6f;  // of the camera: the ground is no strip any more
-  if (buffers.to_eye.y > kSteep) return std::nullopt;
-  const int width = buffers.width;
-  int low = -1, left = width, right = -1;
-  double weight = 0, moment = 0;
-  for (int y = buffers.height - 1; y >= 0; --y) {
-    for (int x = 0; x < width; ++x) {
-      const std::size_t i = static_cast<std::size_t>(y) * width + x;
-      if (buffers.object[i] == render::Object::paper) continue;
-      left = std::min(left, x), right = std::max(right, x);
-      if (buffers.object[i] != render::Object::wood) continue;
-      low = std::max(low, y);
-      if (y < low - buffers.height / 100) continue;
-      weight += 1, moment += x + 0.5;
-    }
-  }
-  if (low < 0) return std::nullopt;
-  return Foot{static_cast<float>(moment / weight), static_cast<float>(low),
-              0.5f * static_cast<float>(right - left + 1)};
 }
 
 /// One picture while it is painted.
@@ -113,7 +86,7 @@ class Painting {
   }
 
   Plane ground_around(const Foot& foot) {
-    const float reach = style_.ground_reach * foot.crown;
+    const float reach = style_.ground_reach * foot.reach;
     return passes_.ground(unit_, {foot.x + 0.3f * reach, foot.y}, {reach, 0.14f * reach},
                           style_.seed);
   }

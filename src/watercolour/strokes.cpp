@@ -79,15 +79,22 @@ void each_dab(const Stroke& stroke, const Brush& brush, Take&& take) {
   }
 }
 
-/// The pixel under a dab's centre if that is in the picture and not hidden.
-std::optional<std::size_t> seen_at(const Dab& dab, const Room& room, const Brush& brush) {
+/// Where a dab's centre lies in the picture, and how much of it comes through what is before it.
+struct Place {
+  std::size_t pixel;
+  float visible;
+};
+
+/// None where nothing does.
+std::optional<Place> place(const Dab& dab, const Room& room, const Brush& brush) {
   const Vec2f c = dab.centre;
   const auto width = static_cast<float>(room.width), height = static_cast<float>(room.height);
   const bool inside = c.x >= 0 && c.y >= 0 && c.x < width && c.y < height;
   if (!inside) return std::nullopt;
   const std::size_t at = static_cast<std::size_t>(c.y) * room.width + static_cast<std::size_t>(c.x);
-  const bool before = dab.depth <= room.depth[at] + brush.tolerance;
-  return before ? std::optional(at) : std::nullopt;
+  const float behind = dab.depth - room.depth[at];
+  const float visible = 1 - smooth(0.5f * brush.tolerance, brush.tolerance, behind);
+  return visible > 0 ? std::optional(Place{at, visible}) : std::nullopt;
 }
 
 /// Calls touch(pixel, coverage) for the pixels of a dab.
@@ -116,9 +123,10 @@ std::vector<float> break_edges(std::span<const Stroke> strokes, const Room& room
   std::vector<float> breaking(room.depth.size());
   for (const Stroke& stroke : strokes) {
     each_dab(stroke, brush, [&](const Dab& dab) {
-      if (!seen_at(dab, room, brush)) return;
+      const std::optional<Place> at = place(dab, room, brush);
+      if (!at) return;
       const float turn = 2 * chance(dab.leaf, 2) - 1;
-      const float gain = std::copysign(0.4f + 0.6f * std::abs(turn), turn);
+      const float gain = std::copysign(at->visible * (0.4f + 0.6f * std::abs(turn)), turn);
       cover(dab, room, [&](std::size_t pixel, float c) {
         if (c * std::abs(gain) > std::abs(breaking[pixel])) breaking[pixel] = c * gain;
       });
@@ -134,13 +142,14 @@ std::vector<float> paint_leaves(std::span<const Stroke> strokes, const Room& roo
     each_dab(stroke, brush, [&](const Dab& dab) {
       const float rank = chance(dab.leaf, 0);
       if (rank >= detail) return;
-      const std::optional<std::size_t> at = seen_at(dab, room, brush);
+      const std::optional<Place> at = place(dab, room, brush);
       if (!at) return;
-      const float near = smooth(0, 0.1f, room.outline[*at]);
-      const float edge = 1 - smooth(0.5f, 0.98f, room.outline[*at]);
-      const float light = smooth(0.3f, 0.7f, 1 - room.dark[*at]);
+      const float near = smooth(0, 0.1f, room.outline[at->pixel]);
+      const float edge = 1 - smooth(0.5f, 0.98f, room.outline[at->pixel]);
+      const float light = smooth(0.3f, 0.7f, 1 - room.dark[at->pixel]);
       const float wanted = detail * near * std::max(edge, 0.35f * light);
-      const float opacity = smooth(0, 0.1f, wanted - rank) * (0.6f + 0.4f * chance(dab.leaf, 1));
+      const float opacity =
+          at->visible * smooth(0, 0.1f, wanted - rank) * (0.6f + 0.4f * chance(dab.leaf, 1));
       if (opacity <= 0) return;
       cover(dab, room, [&](std::size_t pixel, float c) {
         covered[pixel] = std::max(covered[pixel], opacity * c);
