@@ -160,7 +160,7 @@ PictureSummary write_pictures(const Subject& subject, const PictureOptions& opti
 /// The plate of the paper's Figure 17: thin, fat and the previous method, in Phong shading and in
 /// watercolour. Of `options` what the rows do not set counts; `look` and `turn` do not.
 /// @throws Error as extract and draw do.
-Picture figure17(std::shared_ptr<const TreeModel> tree, const LeafSet& leaves,
+Picture figure17(const std::shared_ptr<const TreeModel>& tree, const LeafSet& leaves,
                  const Options& options, Surfacing surfacing, const PictureOptions& picture,
                  Device& device, const Progress& progress = {});
 

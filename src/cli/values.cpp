@@ -5,6 +5,7 @@
 #include <array>
 #include <cctype>
 #include <charconv>
+#include <cmath>
 #include <cstdio>
 #include <numeric>
 #include <optional>
@@ -121,7 +122,7 @@ int whole_number(std::string_view flag, const std::string& text, int low, int hi
 
 double real_number(std::string_view flag, const std::string& text, double low, double high) {
   const double value = real_number(flag, text);
-  if (!(value >= low && value <= high)) {
+  if (std::isnan(value) || value < low || value > high) {
     refuse(flag, text, "is out of range",
            std::string("Give a number from ") + number(low) + " to " + number(high) + ".");
   }

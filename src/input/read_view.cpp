@@ -49,7 +49,7 @@ void check(const View& view, const std::string& file, const Places& places) {
     fail(places.up, "does not say which way is up: it is zero, or along the way the camera looks",
          "Give another up, such as [0, 1, 0], or [0, 0, -1] for a camera that looks down.");
   }
-  if (!(view.angle >= kLeastAngle && view.angle <= kLargestAngle)) {
+  if (view.angle < kLeastAngle || view.angle > kLargestAngle) {
     fail(places.angle, "is not from 0.1 to 170 degrees",
          "Give the angle of view from the picture's bottom to its top.");
   }

@@ -82,7 +82,7 @@ Frame frame_of_rows(const TreeModel& tree, const LeafSet& leaves, const Options&
 
 }  // namespace
 
-Picture figure17(std::shared_ptr<const TreeModel> tree, const LeafSet& leaves,
+Picture figure17(const std::shared_ptr<const TreeModel>& tree, const LeafSet& leaves,
                  const Options& options, Surfacing surfacing, const PictureOptions& asked,
                  Device& device, const Progress& progress) {
   check_picture(asked, &device.info());

@@ -24,7 +24,7 @@ std::string read_text(const fs::path& file) {
   }
   errno = 0;
   std::ifstream stream(file, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(stream), {}};
+  std::string text{std::istreambuf_iterator<char>(stream), {}};
   if (!stream) {
     const std::string reason = std::generic_category().message(errno);
     throw Error(ErrorCode::input, file.string() + ": cannot be read: " + reason, kRemedy);
