@@ -76,7 +76,9 @@ kernel void layer(image rho, image within, image height, image sway, image break
                          fma(REAL(wobble), LOAD(sway), ragged * LOAD(breaking)));
   const real painted = saturate(8.0f * r);  // nothing moves paint to where there is none
   const real half_width = fma(REAL(lost), saturate(LOAD(wetness)), REAL(softness));
-  STORE(LOAD(within) * smooth(level - half_width, level + half_width, fma(painted, moved, r)), out);
+  // However soft an edge is, where rho is zero there is none.
+  const real low = fmax(level - half_width, REAL(0.0f));
+  STORE(LOAD(within) * smooth(low, level + half_width, fma(painted, moved, r)), out);
 }
 
 // Pigment carried to the rim while a layer dries: more where the layer is denser than around.

@@ -242,6 +242,12 @@ TEST_P(LayerTest, IsASmoothstepAroundItsLevel) {
   expect(layer({.level = 0.5f, .softness = 0.1f}, 0.5f), {0, 0, 0.25f, 0.5f, 0.5f});
 }
 
+TEST_P(LayerTest, LeavesPaperWhereThereIsNothingHoweverSoftItIs) {
+  const Values values = layer({.level = 0.4f, .softness = 0.6f});
+  EXPECT_EQ(values[0], 0);
+  EXPECT_GT(values[1], 0);
+}
+
 TEST_P(LayerTest, ThePaperAndLeavesMoveItsEdge) {
   paper.height = passes.constant(0.75f), paper.sway = passes.constant(-1);
   flow.breaking = passes.constant(0.5f);

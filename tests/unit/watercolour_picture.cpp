@@ -137,6 +137,24 @@ TEST(Watercolour, NothingInViewIsPaper) {
   }
 }
 
+TEST(Watercolour, PaperAwayFromTheTreeIsBare) {
+  for (const auto name : style_names()) {
+    for (const int size : {40, 120, 400}) {
+      render::Buffers nothing = tree(size, size);
+      nothing.resize(size, size);
+      const Style style = shipped_style(name);
+      const Picture bare = paint(nothing, {}, style);
+      const Picture drawn = paint(tree(size, size), leaves(size, size), style);
+      for (int y = 0; y < size / 10; ++y) {
+        for (int x = 0; x < 3 * size / 10; ++x) {
+          const std::size_t i = 3 * (static_cast<std::size_t>(y) * size + x);
+          ASSERT_NEAR(bare.rgb[i], drawn.rgb[i], 1) << name << ' ' << size << ' ' << x << ' ' << y;
+        }
+      }
+    }
+  }
+}
+
 TEST(Watercolour, AnySizeIsPainted) {
   for (const auto [width, height] :
        {std::array{1, 1}, {7, 3}, {3, 7}, {16, 16}, {17, 33}, {200, 9}}) {
