@@ -59,6 +59,9 @@ std::span<const std::string_view> watercolour_styles();
 WatercolourStyle read_watercolour_style(const std::string& name_or_file,
                                         std::optional<double> detail = {});
 
+/// The keys of a style file as a Markdown table: name, range, the default style's value, meaning.
+std::string watercolour_style_table();
+
 /// What pictures are taken of, ready to be seen from any side: foliage, and perhaps wood.
 class Subject {
  public:

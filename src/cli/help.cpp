@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cli/values.h"
+#include "leafhull/render.h"
 
 namespace leafhull::cli {
 namespace {
@@ -72,7 +73,11 @@ std::string help_line(const Flag& flag) {
 }
 
 std::string markdown_row(const Flag& flag) {
-  const auto cell = [](std::string_view text) { return " " + std::string(text) + " |"; };
+  const auto cell = [](std::string_view text) {
+    std::string escaped(" ");
+    for (const char c : text) escaped += c == '|' ? std::string("\\|") : std::string(1, c);
+    return escaped + " |";
+  };
   return "|" + cell("`" + spelled(flag) + "`") + cell(flag.help) + cell(flag.unit) +
          cell(flag.range) + cell(flag.default_value) + "\n";
 }
@@ -102,7 +107,17 @@ std::string styles_and_presets() {
   return text + "  " + presets + "\n";
 }
 
-void print_markdown(const Arguments&) { std::cout << markdown(extract_verb().flags); }
+/// A verb that prints tables for the documentation.
+Verb table_verb(std::string_view name, std::string_view about, std::string_view examples,
+                void (*run)(const Arguments&)) {
+  return {.name = name,
+          .summary = about,
+          .about = about,
+          .examples = examples,
+          .hidden = true,
+          .flags = help_flags(),
+          .run = run};
+}
 
 }  // namespace
 
@@ -155,13 +170,21 @@ std::string markdown(std::span<const Flag> flags) {
 }
 
 Verb help_options_verb() {
-  return {.name = "help-options",
-          .summary = "extract's options as Markdown",
-          .about = "Prints the options of extract as Markdown tables.",
-          .examples = "  leafhull help-options\n",
-          .hidden = true,
-          .flags = help_flags(),
-          .run = print_markdown};
+  return table_verb("help-options", "Prints the options of extract as Markdown tables.",
+                    "  leafhull help-options\n",
+                    [](const Arguments&) { std::cout << markdown(extract_verb().flags); });
+}
+
+Verb help_pictures_verb() {
+  return table_verb("help-pictures", "Prints the options of pictures as Markdown tables.",
+                    "  leafhull help-pictures\n",
+                    [](const Arguments&) { std::cout << markdown(render_flags()); });
+}
+
+Verb help_styles_verb() {
+  return table_verb("help-styles", "Prints the keys of watercolour styles as a Markdown table.",
+                    "  leafhull help-styles\n",
+                    [](const Arguments&) { std::cout << watercolour_style_table(); });
 }
 
 }  // namespace leafhull::cli

@@ -28,5 +28,7 @@ Verb study_verb();
 Verb render_verb();
 Verb devices_verb();
 Verb help_options_verb();
+Verb help_pictures_verb();
+Verb help_styles_verb();
 
 }  // namespace leafhull::cli

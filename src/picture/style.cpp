@@ -36,6 +36,8 @@ std::string read_text(const fs::path& file) {
 
 std::span<const std::string_view> watercolour_styles() { return watercolour::style_names(); }
 
+std::string watercolour_style_table() { return watercolour::style_table(); }
+
 WatercolourStyle read_watercolour_style(const std::string& name_or_file,
                                         std::optional<double> detail) {
   const auto shipped = watercolour::style_names();
