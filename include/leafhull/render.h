@@ -161,7 +161,8 @@ PictureSummary write_pictures(const Subject& subject, const PictureOptions& opti
                               const Progress& progress = {});
 
 /// The plate of the paper's Figure 17: thin, fat and the previous method, in Phong shading and in
-/// watercolour. Of `options` what the rows do not set counts; `look` and `turn` do not.
+/// watercolour. Each row sets the style, over which what else is in `options` wins, and the method;
+/// `look` and `turn` do not count.
 /// @throws Error as extract and draw do.
 Picture figure17(const std::shared_ptr<const TreeModel>& tree, const LeafSet& leaves,
                  const Options& options, Surfacing surfacing, const PictureOptions& picture,

@@ -87,9 +87,7 @@ std::vector<std::string> without_effect(const Arguments& arguments, bool is_tree
     if (arguments.detail) warn("detail", why);
   }
   for (const std::string_view option : arguments.given) {
-    const bool of_rows = option == "style" || option == "method" || option == "threshold" ||
-                         option == "threshold-percent" || option == "coverage" ||
-                         option == "radius-max" || option == "radius-unit" || option == "flatness";
+    const bool of_rows = option == "style" || option == "method";
     if (arguments.figure17 && of_rows) warn(option, "on --figure17, whose rows set it");
     if (is_tree) continue;
     if (!is_field(arguments)) warn(option, "on a shape that is drawn as it is");
@@ -258,7 +256,9 @@ class Run {
 void run_render(const Arguments& arguments) {
   Console console(arguments.quiet, arguments.verbose);
   const PictureOptions drawing = checked(arguments);
-  catch_signals();
+  const bool frames = arguments.pictures.frames > 0;
+  catch_signals(frames && !arguments.quiet ? "leafhull: stopped; the frames so far are written\n"
+                                           : "");
   Run(arguments, drawing, console)();
 }
 

@@ -239,6 +239,10 @@ class Plate(Render):
         self.assertTrue(any(is_green(pixel) for row in rows for pixel in row))
         self.assertEqual(self.written(), ["picture.png"])
 
+    def test_other_options_win_over_the_rows(self):
+        small = ("--figure17", "--size", "32x32", *MESH)
+        self.assertNotEqual(self.bytes(*small, "--threshold", "60%"), self.bytes(*small))
+
     def test_contradictions(self):
         self.refuse(["--figure17", "--turntable"], "--figure17", "--turntable", "3")
         self.refuse(["--figure17", "--look depth"], "--figure17", "--look", "depth")

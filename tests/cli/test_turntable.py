@@ -95,7 +95,8 @@ class Turntables(Render):
         while len(self.written()) < 5 and time.monotonic() < deadline:
             time.sleep(0.02)
         process.send_signal(signal.SIGTERM)
-        process.communicate(timeout=60)
+        said = process.communicate(timeout=60)[1].decode()
+        self.assertIn("stopped; the frames so far are written", said)
         self.assertEqual(process.returncode, -signal.SIGTERM)
         written = self.written()
         self.assertEqual(written, self.frames(len(written)))
