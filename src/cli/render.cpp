@@ -85,6 +85,8 @@ std::vector<std::string> without_effect(const Arguments& arguments, bool is_tree
     const std::string why = "with --look " + std::string(name(look));
     if (!arguments.watercolour_style.empty()) warn("watercolour-style", why);
     if (arguments.detail) warn("detail", why);
+  } else if (!is_tree && arguments.detail) {
+    warn("detail", "where there are no leaves");
   }
   for (const std::string_view option : arguments.given) {
     const bool of_rows = option == "style" || option == "method";
