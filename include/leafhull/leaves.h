@@ -36,6 +36,9 @@ struct LeafVertex {
 struct LeafSet {
   std::vector<LeafVertex> vertices;  ///< in an order that depends on the geometry alone
   std::size_t leaf_count = 0;
+  /// Of each leaf, its place among them in the file, by which a leaf of a moving tree is known from
+  /// frame to frame; or none.
+  std::vector<std::uint32_t> order_in_file;
   std::size_t dropped_leaves = 0;    ///< zero area, no usable normal or not finite
   std::size_t split_components = 0;  ///< components that were not one flat leaf
   double mean_radius_major = 0;      ///< mean R_u over the leaves, model units

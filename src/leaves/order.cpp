@@ -96,6 +96,10 @@ void sort_vertices(LeafSet& leaves) {
     if (number == kUnseen) number = next++;
     vertex.leaf = number;
   }
+  leaves.order_in_file.resize(leaves.leaf_count);
+  for (std::uint32_t in_file = 0; in_file < renumbered.size(); ++in_file) {
+    leaves.order_in_file[renumbered[in_file]] = in_file;
+  }
 }
 
 }  // namespace leafhull

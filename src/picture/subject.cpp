@@ -73,27 +73,36 @@ std::vector<const Instance*> wood_of(const TreeModel& tree, const LeafOptions& o
   return wood;
 }
 
-/// One for each leaf, in the middle of its vertices.
+/// One for each leaf, in the middle of its vertices and by its place in the file: nothing of it
+/// depends on how a moving tree sorts its leaves.
 std::vector<LeafCard> cards_of(const LeafSet& leaves, const render::Placement& placement) {
   struct Sum {
-    Vec3d positions;
+    Vec3d positions, normals, majors;
     double count = 0;
-    const LeafVertex* first = nullptr;
+    const LeafVertex* any = nullptr;
   };
   std::vector<Sum> sums(leaves.leaf_count);
   for (const LeafVertex& vertex : leaves.vertices) {
-    Sum& sum = sums[vertex.leaf];
-    if (!sum.first) sum.first = &vertex;
+    Sum& sum = sums[leaves.order_in_file.empty() ? vertex.leaf : leaves.order_in_file[vertex.leaf]];
+    if (!sum.any) sum.any = &vertex;
+    // Axes are known up to their signs.
+    const auto along = [](Vec3f axis, Vec3f first) {
+      return Vec3d(dot(axis, first) < 0 ? -axis : axis);
+    };
     sum.positions = sum.positions + vertex.position;
+    sum.normals = sum.normals + along(vertex.normal, sum.any->normal);
+    sum.majors = sum.majors + along(vertex.major, sum.any->major);
     ++sum.count;
   }
-  const auto scale = static_cast<float>(placement.scale);
   std::vector<LeafCard> cards;
   for (std::size_t leaf = 0; leaf < sums.size(); ++leaf) {
-    const auto& [positions, count, first] = sums[leaf];
-    if (!first) continue;
-    cards.push_back({placement(positions / count), first->major * (first->radius_major * scale),
-                     cross(first->normal, first->major) * (first->radius_minor * scale),
+    const Sum& sum = sums[leaf];
+    if (!sum.any) continue;
+    const Vec3d major = normalized(sum.majors);
+    const Vec3d minor = normalized(cross(sum.normals, major));
+    cards.push_back({placement(sum.positions / sum.count),
+                     Vec3f(major * (sum.any->radius_major * placement.scale)),
+                     Vec3f(minor * (sum.any->radius_minor * placement.scale)),
                      static_cast<std::uint32_t>(leaf)});
   }
   return cards;

@@ -189,6 +189,32 @@ TEST(LeafOrder, NumbersGoByFirstAppearance) {
 }
 
 // In a box from 0 to 1 the eight corners of a cube come with x fastest and z slowest.
+TEST(LeafOrder, ALeafIsKnownByItsPlaceInTheFileWhereverItMoves) {
+  Random random(3);
+  TreeModel tree = tree_of({crown(random, 60)});
+  const auto places = [&] {
+    // By their place in the file: a leaf's corner.
+    const LeafSet leaves = find_leaves(tree, {.globs = {"*"}});
+    EXPECT_EQ(leaves.order_in_file.size(), leaves.leaf_count);
+    std::vector<Vec3d> lowest(leaves.leaf_count, Vec3d{1e9, 1e9, 1e9});
+    for (const LeafVertex& v : leaves.vertices) {
+      Vec3d& low = lowest[leaves.order_in_file[v.leaf]];
+      if (v.position.x < low.x) low = v.position;
+    }
+    return lowest;
+  };
+  const std::vector<Vec3d> before = places();
+  // Turned upside down, the leaves are sorted quite differently.
+  for (Instance& instance : tree.instances) {
+    for (double& value : instance.to_world[1]) value = -value;
+  }
+  const std::vector<Vec3d> after = places();
+  ASSERT_EQ(before.size(), after.size());
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    EXPECT_EQ(before[i], Vec3d(after[i].x, -after[i].y, after[i].z)) << i;
+  }
+}
+
 TEST(LeafOrder, FollowsTheMortonCurve) {
   Primitive corners;
   for (int i = 7; i >= 0; --i) {
