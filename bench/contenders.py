@@ -21,12 +21,26 @@ SPHERES = "OpenVDB rasterizeSmoothSpheres"
 PEERS = ("OpenVDB ParticlesToLevelSet", "CGAL alpha_wrap_3", "Blender", "splashsurf")
 SURVEYS = tuple(f"bench_limit {method}" for method in METHODS)
 COLD = "leafhull controlled, kernels to compile"
+LOOKS = ("phong", "watercolour")
+PICTURE_SIZES = (512, 1024, 2048)
 
 
 def threaded(method: str, count: int) -> str:
     return f"leafhull {method}, {count} thread{'s' * (count > 1)}"
 
 
+def picture(surface: str, look: str, size: int = 1024) -> str:
+    return f"{surface} {look}, {size}x{size}"
+
+
+# Side by side: what is compared at one size, then how memory grows with it.
+PICTURES = {
+    picture(surface, look, size): (surface, look, size)
+    for surface, look, size in (
+        *((surface, look, 1024) for look in LOOKS for surface in ("direct", "mesh")),
+        *(("direct", "phong", size) for size in PICTURE_SIZES if size != 1024),
+    )
+}
 THREADS = tuple(threaded(method, count) for method in METHODS for count in (1, 2))
 
 
@@ -56,6 +70,12 @@ COMMANDS = {
         for count in (1, 2)
     },
     COLD: program("contender_leafhull", "--method", "controlled"),
+    **{
+        name: program(
+            "contender_picture", "--surface", surface, "--look", look, "--size", str(size)
+        )
+        for name, (surface, look, size) in PICTURES.items()
+    },
     LITERAL: program("contender_published", "--method", "controlled", "--literal"),
     SPHERES: program("contender_rasterize_spheres"),
     "OpenVDB ParticlesToLevelSet": program("contender_particles_to_level_set"),

@@ -10,9 +10,9 @@
 
 namespace leafhull::bench {
 
-LeafSet load_leaves(const std::string& tree) {
+TreeModel load_tree(const std::string& tree) {
   constexpr std::string_view kSynthetic = "synthetic:";
-  if (!tree.starts_with(kSynthetic)) return find_leaves(read_tree(tree), {});
+  if (!tree.starts_with(kSynthetic)) return read_tree(tree);
   std::size_t count = 0;
   const char* end = tree.data() + tree.size();
   const auto [p, error] = std::from_chars(tree.data() + kSynthetic.size(), end, count);
@@ -20,8 +20,10 @@ LeafSet load_leaves(const std::string& tree) {
     throw Error(ErrorCode::usage, "'" + tree + "' names no number of leaf vertices",
                 "Give synthetic:COUNT.");
   }
-  return find_leaves(synthetic_crown(count), {});
+  return synthetic_crown(count);
 }
+
+LeafSet load_leaves(const std::string& tree) { return find_leaves(load_tree(tree), {}); }
 
 Options options_of(const Case& c, Method method) {
   Options options;

@@ -7,10 +7,14 @@
 #include "bench/contender.h"
 #include "leafhull/leaves.h"
 #include "leafhull/options.h"
+#include "leafhull/tree.h"
 
 namespace leafhull::bench {
 
-/// The leaves of a tree file, or of a synthetic crown where `tree` is synthetic:COUNT.
+/// A tree file, or a synthetic crown where `tree` is synthetic:COUNT.
+TreeModel load_tree(const std::string& tree);
+
+/// Its leaves.
 LeafSet load_leaves(const std::string& tree);
 
 /// The case's radius, voxel size and threshold, resolved.

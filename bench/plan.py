@@ -26,6 +26,9 @@ STYLES = ("painterly", "r1.5")
 SERIES = (50_000, 100_000, 200_000, 400_000, 1_000_000)
 SERIES_LENGTHS = ("--radius", "0.62", "--voxel", "0.134")
 
+PICTURES = "pictures-"
+STANDARD = 128  # voxels
+
 STARTUP = "startup"
 CACHED, FRESH = "kernels cached", "kernels to compile"
 
@@ -81,6 +84,11 @@ def series_case(count: int) -> Case:
     return Case(f"series-{count}", f"synthetic:{count}", SERIES_LENGTHS)
 
 
+def picture_case(tree: str) -> Case:
+    of_tree = tree_case(tree, STANDARD, "painterly")
+    return of_tree._replace(name=f"{PICTURES}{Path(of_tree.tree).stem.replace(':', '-')}")
+
+
 def entrants(case: Case, names: tuple[str, ...]) -> list[Entrant]:
     return [Entrant(case.name, name, lambda n=name: who.start(n, case.made())) for name in names]
 
@@ -123,6 +131,7 @@ def heats() -> Iterator[list[Entrant]]:
     for tree in TREES:
         yield entrants(painterly(tree), who.THREADS)
     yield [e for count in SERIES for e in entrants(series_case(count), who.OURS)]
+    yield entrants(picture_case("birch"), tuple(who.PICTURES))
     for tree in CROWNS:
         yield entrants(painterly(tree), (*who.OURS, who.BRICKS, who.SPHERES))
     for tree in TREES:
@@ -141,6 +150,7 @@ def surveys() -> Iterator[list[Entrant]]:
 
 def quick_heats() -> Iterator[list[Entrant]]:
     yield startup()
+    yield entrants(picture_case("ash"), tuple(who.PICTURES))
     for resolution in (32, 64):
         names = (*who.OURS, who.SPHERES, *who.PUBLISHED, *who.PEERS)
         yield entrants(painterly("ash", resolution), names)

@@ -5,6 +5,7 @@ from collections.abc import Iterable, Iterator
 
 import contenders as who
 import limit
+import pictures
 import plan
 import slopes
 import table2
@@ -164,7 +165,11 @@ def stages_section(results: Results) -> list[str]:
     ]
     if not columns:
         return []
-    stages = dict.fromkeys(r.part for r in results.records if r.part.startswith(STAGES))
+    stages = dict.fromkeys(
+        r.part
+        for r in results.records
+        if r.part.startswith(STAGES) and (r.case, r.contender) in columns
+    )
     header = (
         "ms",
         *(
@@ -249,6 +254,7 @@ SECTIONS = (
     stages_section,
     limit.section,
     series_section,
+    pictures.section,
     cold_section,
     contender_section,
 )

@@ -5,6 +5,7 @@ from typing import NamedTuple
 
 import contenders as who
 import limit
+import pictures
 import plan
 import slopes
 from records import Results
@@ -148,4 +149,12 @@ def targets(results: Results) -> list[Target]:
                 startup(results, plan.CACHED)),
         at_most("process start to file at `draft`, kernels to compile", 0.9, "s",
                 startup(results, plan.FRESH)),
+        at_most("a direct picture of 1024x1024 in Phong shading over extracting and drawing the "
+                "mesh, `standard`", 3, "x", pictures.direct_over_mesh(results)),
+        at_most("the watercolour passes of 1024x1024", 250, "ms",
+                pictures.watercolour_passes(results)),
+        at_most("memory that a direct picture takes for each of its pixels", 160, "bytes",
+                pictures.bytes_per_pixel(results)),
+        at_least("direct redraws of 1024x1024 on a GPU", 30, "frames/s",
+                 pictures.frames_on_gpu(results)),
     ]  # fmt: skip

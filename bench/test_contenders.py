@@ -63,6 +63,23 @@ class Contenders(unittest.TestCase):
                         self.assertGreater(result["total"], 0)
                         self.assertGreater(result["peak_memory_bytes"], 0)
 
+    def test_pictures(self):
+        case = self.cases["painterly"]
+        for surface, stage in (("direct", "bricks"), ("mesh", "polygonise")):
+            for look in ("phong", "watercolour"):
+                with self.subTest(surface=surface, look=look):
+                    options = ("--surface", surface, "--look", look, "--size", "64")
+                    ready, *runs = self.lines(case, "contender_picture", *options)
+                    self.assertEqual((ready["ready"], len(runs)), (True, 2))
+                    for result in runs:
+                        stages = result["stages"]
+                        self.assertIn(stage, stages)
+                        self.assertAlmostEqual(sum(stages.values()), result["total"])
+                        for seconds in (stages["scene"], stages["rays"], stages["paint"]):
+                            self.assertGreater(seconds, 0)
+                        self.assertGreater(result["redraw_seconds"], result["repaint_seconds"])
+                        self.assertIn(result["on_gpu"], (0, 1))
+
     def test_leafhull_and_published_make_surfaces_of_one_size(self):
         for style, case in self.cases.items():
             for method in ("isotropic", "controlled"):

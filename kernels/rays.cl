@@ -157,19 +157,30 @@ static float sampled_density(const Grid* g, float threshold, float x, float y, f
 #define PIECES (STEPS - 1)
 // A piece with a crossing, voxels; in it N goes straight.
 #define CLOSE_ENOUGH 0.02f
+// Points that cut a piece.
+#define CUTS 3
 
-// Kernels that a ray's way through a brick may be remembered to meet.
-#define MOST_MET 128
+// Kernels that a way through a brick may be remembered to meet.
+#define MOST_MET (LANES == 16 ? 256 : 128)
+// Those of a brick's list that are tried at once.
+#define RUN 128
+
+// A kernel along a ray: 1 - xi = top - (first + i more)^2 at the point i of its way.
+typedef struct {
+  real top, first, more;
+} Parabola;
 
 // Where N comes from in a brick.
 typedef struct {
   int low[3];  // its origin: positions count from there
   global const Kernel* kernels;
-  global const float* radii;  // their largest, voxels
-  global const uint* list;    // of those near it
+  global const float4* balls;  // around each: centre, from the anchor, and radius, voxels
+  global const uint* list;     // of those near it
   uint count;
-  uint met[MOST_MET];  // of those, once the way is known
+  int knows_all;  // the kernels that a way meets, once it is known: met_count of the list
   uint met_count;
+  uint met[MOST_MET + 1];
+  Parabola parabolas[MOST_MET + 1];
   const Grid* grid;
   float threshold;
 } Source;
@@ -186,16 +197,20 @@ static float sampled_near(const Source* s, float x, float y, float z) {
                          z + (float)s->low[2]);
 }
 
-static void sum_along(const Source* s, Real3 p, Real3 d, real step, real* n) {
+static void sum_way(Source* s, Real3 p, Real3 d, real step, Beam beam, real* n) {
+  (void)beam;
   for (int i = 0; i < STEPS; ++i) {
     const Real3 q = along(p, d, step * (float)i);
     n[i] = sampled_near(s, q.x, q.y, q.z);
   }
 }
 
-static void sum_first(Source* s, Real3 p, Real3 d, real step, Beam beam, real* n) {
-  (void)beam;
-  sum_along(s, p, d, step, n);
+static void sum_cuts(const Source* s, Real3 p, Real3 d, real step, real begin, float width,
+                     real* n) {
+  for (int i = 0; i < CUTS; ++i) {
+    const Real3 q = along(p, d, step * fma((float)(i + 1), width, begin));
+    n[i] = sampled_near(s, q.x, q.y, q.z);
+  }
 }
 
 // By differences over two voxels: smoother than the slope of a trilinear cell.
@@ -226,78 +241,125 @@ static Real3 transformed(global const Kernel* k, Real3 v) {
 static real dot3(Real3 a, Real3 b) { return fma(a.x, b.x, fma(a.y, b.y, a.z * b.z)); }
 
 // The kernels of the way, or where they were too many those of the brick.
-static uint count_of(const Source* s) { return s->met_count <= MOST_MET ? s->met_count : s->count; }
+static uint count_of(const Source* s) { return s->knows_all ? s->met_count : s->count; }
 static global const Kernel* kernel_of(const Source* s, uint i) {
-  return s->kernels + (s->met_count <= MOST_MET ? s->met[i] : s->list[i]);
+  return s->kernels + (s->knows_all ? s->met[i] : s->list[i]);
 }
 
-// Adds the kernel to N at p + i step d, i < STEPS; false where it is out of reach. With q its point
-// nearest to the ray, at s: 1 - xi = (1 - |U q|^2) - |U d|^2 (t - s)^2, where no large numbers
-// cancel however thin the kernel is.
-static inline __attribute__((always_inline)) int add_along(const Source* source,
-                                                           global const Kernel* k, Real3 p, Real3 d,
-                                                           real step, real* n) {
+// The kernel along p + i step d. With q the point nearest to its centre, at s: 1 - xi =
+// (1 - |U q|^2) - |U d|^2 (t - s)^2, where no large numbers cancel however thin the kernel is.
+static Parabola parabola_along(const Source* source, global const Kernel* k, Real3 p, Real3 d,
+                               real step) {
   const Centre c = centre_of(source, k);
   const Real3 from = transformed(k, (Real3){p.x - c.x, p.y - c.y, p.z - c.z});
   const Real3 way = transformed(k, d);
   const real steepness = dot3(way, way);
   const real s = -dot3(from, way) / steepness;
   const Real3 q = along(from, way, s);
-  const real top = 1.0f - dot3(q, q);
-  const real beyond = fmax(fmax(-s, s - step * (float)PIECES), REAL(0.0f));
-  if (!ANY(fma(-steepness * beyond, beyond, top) > 0.0f)) return 0;
   const real slope = sqrt(steepness);
-  const real first = -s * slope, more = step * slope;
-#define ADD(i)                                         \
-  {                                                    \
-    const real u = fma(REAL((float)(i)), more, first); \
-    const real w = fmax(fma(-u, u, top), REAL(0.0f));  \
-    n[i] = ADD_POWER(n[i], w);                         \
+  return (Parabola){1.0f - dot3(q, q), -s * slope, step * slope};
+}
+
+static real weight_at(Parabola k, real i) {
+  const real u = fma(i, k.more, k.first);
+  return fmax(fma(-u, u, k.top), REAL(0.0f));
+}
+
+// Whether the kernel is met on the way.
+static int is_met(Parabola k) {
+  const real last = fma(REAL((float)PIECES), k.more, k.first);
+  const real beyond = fmax(fmax(k.first, -last), REAL(0.0f));
+  return ANY(fma(-beyond, beyond, k.top) > 0.0f) != 0;
+}
+
+typedef struct {
+  real x, y, z, radius;
+} Balls;
+
+static Balls balls_of(const Source* source, const uint* ranks) {
+  global const float4* balls = source->balls;
+#if LANES == 16
+  float16 four[4];
+  for (int i = 0; i < 4; ++i) {
+    four[i] = (float16)(balls[ranks[4 * i]], balls[ranks[4 * i + 1]], balls[ranks[4 * i + 2]],
+                        balls[ranks[4 * i + 3]]);
   }
-  ADD(0)
-  ADD(1)
-  ADD(2)
-  ADD(3)
-  ADD(4)
-  ADD(5)
-  ADD(6) ADD(7) ADD(8) ADD(9) ADD(10) ADD(11) ADD(12) ADD(13) ADD(14) ADD(15)
-#undef ADD
-      return 1;
+#define OF_ALL(s) (float16)(four[0].s, four[1].s, four[2].s, four[3].s)
+  return (Balls){OF_ALL(s048c), OF_ALL(s159d), OF_ALL(s26ae), OF_ALL(s37bf)};
+#undef OF_ALL
+#else
+  const float4 ball = balls[ranks[0]];
+  return (Balls){ball.x, ball.y, ball.z, ball.w};
+#endif
 }
 
-static void sum_along(const Source* source, Real3 p, Real3 d, real step, real* n) {
-  for (int i = 0; i < STEPS; ++i) n[i] = REAL(0.0f);
-  const uint count = count_of(source);
-  for (uint i = 0; i < count; ++i) add_along(source, kernel_of(source, i), p, d, step, n);
+// Writes down those kernels of a run of the list which the beam may meet: how many. LANES are
+// tried at once.
+static uint find_candidates(const Source* source, uint begin, uint end, Beam beam,
+                            uint* candidates) {
+  uint count = 0;
+  for (uint i = begin; i < end; i += LANES) {
+    uint ranks[LANES];
+    for (int lane = 0; lane < LANES; ++lane) ranks[lane] = source->list[min(i + lane, end - 1)];
+    const Balls balls = balls_of(source, ranks);
+    const real x = balls.x - beam.x, y = balls.y - beam.y, z = balls.z - beam.z;
+    const real ahead = fma(x, beam.dx, fma(y, beam.dy, z * beam.dz));
+    const real reach = balls.radius + beam.width;
+    const real aside = fma(x, x, fma(y, y, fma(z, z, -ahead * ahead)));
+    const Truths meets = {.v = (aside < reach * reach) & (ahead > -reach) &
+                               (ahead < beam.length + reach) & TRUE};
+    if (!ANY(meets.v)) continue;
+    const int last = min((uint)LANES, end - i);
+    for (int lane = 0; lane < last; ++lane) {
+      candidates[count] = ranks[lane];
+      count += meets.lane[lane] & 1;
+    }
+  }
+  return count;
 }
 
-// Kernels of a brick that are tried at once.
-#define RUN 128
-
-// The same for the whole way; from then on the source knows what it meets.
-static void sum_first(Source* source, Real3 p, Real3 d, real step, Beam beam, real* n) {
+// N at the points of a way; from then on the source knows what it meets.
+static void sum_way(Source* source, Real3 p, Real3 d, real step, Beam beam, real* n) {
   for (int i = 0; i < STEPS; ++i) n[i] = REAL(0.0f);
   source->met_count = 0;
+  source->knows_all = 1;
   for (uint begin = 0; begin < source->count; begin += RUN) {
-    const uint end = min(begin + RUN, source->count);
     uint candidates[RUN + 1];
-    uint count = 0;
-    for (uint i = begin; i < end; ++i) {
-      const uint rank = source->list[i];
-      const Centre c = centre_of(source, source->kernels + rank);
-      const float x = c.x - beam.x, y = c.y - beam.y, z = c.z - beam.z;
-      const float ahead = x * beam.dx + y * beam.dy + z * beam.dz;
-      const float reach = source->radii[rank] + beam.width;
-      const float aside = x * x + y * y + z * z - ahead * ahead;
-      candidates[count] = rank;
-      count += (aside < reach * reach) & (ahead > -reach) & (ahead < beam.length + reach);
-    }
+    const uint count =
+        find_candidates(source, begin, min(begin + RUN, source->count), beam, candidates);
+    source->knows_all &= source->met_count + count <= MOST_MET;
+    const uint first = source->knows_all ? source->met_count : 0;
+    uint met = first;
     for (uint i = 0; i < count; ++i) {
-      const uint rank = candidates[i];
-      if (!add_along(source, source->kernels + rank, p, d, step, n)) continue;
-      if (source->met_count < MOST_MET) source->met[source->met_count] = rank;
-      ++source->met_count;
+      source->met[met] = candidates[i];
+      source->parabolas[met] = parabola_along(source, source->kernels + candidates[i], p, d, step);
+      met += is_met(source->parabolas[met]);
     }
+    for (uint i = first; i < met; ++i) {
+      const Parabola k = source->parabolas[i];
+#define ADD(i) n[i] = ADD_POWER(n[i], weight_at(k, REAL((float)(i))));
+      // clang-format off
+      ADD(0) ADD(1) ADD(2) ADD(3) ADD(4) ADD(5) ADD(6) ADD(7)
+      ADD(8) ADD(9) ADD(10) ADD(11) ADD(12) ADD(13) ADD(14) ADD(15)
+      // clang-format on
+#undef ADD
+    }
+    source->met_count = met;
+  }
+}
+
+// N at the cuts of a piece of the way, `begin` and its parts' `width` counted in steps.
+static void sum_cuts(const Source* source, Real3 p, Real3 d, real step, real begin, float width,
+                     real* n) {
+  const uint count = count_of(source);
+  const real first = begin + width, second = begin + 2 * width, third = begin + 3 * width;
+  n[0] = n[1] = n[2] = REAL(0.0f);
+  for (uint j = 0; j < count; ++j) {
+    const Parabola k = source->knows_all ? source->parabolas[j]
+                                         : parabola_along(source, kernel_of(source, j), p, d, step);
+    n[0] = ADD_POWER(n[0], weight_at(k, first));
+    n[1] = ADD_POWER(n[1], weight_at(k, second));
+    n[2] = ADD_POWER(n[2], weight_at(k, third));
   }
 }
 
@@ -330,7 +392,7 @@ static Real3 gradient_at(const Source* source, Real3 p) {
 // Where N passes T between two of the points.
 typedef struct {
   truth found;
-  real piece;          // its number
+  real piece;          // its number, or where it begins, in steps
   real before, after;  // N at its ends
   truth enters;
 } Crossing;
@@ -348,25 +410,30 @@ static Crossing first_crossing(const real* n, float threshold, truth inside) {
   return c;
 }
 
-// How far along p + t d N passes T in a piece of length `step` that begins at p, `inside` telling
-// the side of p.
+// How far along p + t d N passes T: the piece with the crossing is cut again and again.
 static real pin_down(const Source* source, Real3 p, Real3 d, real step, float threshold,
                      Crossing c) {
-  real t = c.piece * step;
-  while (ANY(c.found & (step > CLOSE_ENOUGH))) {
-    real n[STEPS];
-    step = step / (float)PIECES;
-    sum_along(source, along(p, d, t), d, step, n);
-    const Crossing finer = first_crossing(n, threshold, !c.enters);
-    // Where rounding shows none, it is at the end.
-    c.piece = select(REAL((float)(PIECES - 1)), finer.piece, finer.found);
-    c.before = select(n[PIECES - 1], finer.before, finer.found);
-    c.after = select(n[PIECES], finer.after, finer.found);
-    t = fma(c.piece, step, t);
+  float width = 1.0f;
+  while (ANY(c.found & (step * width > CLOSE_ENOUGH))) {
+    width /= (float)(CUTS + 1);
+    real n[CUTS];
+    sum_cuts(source, p, d, step, c.piece, width, n);
+    // Where none of the cuts is on the other side, it is in the last part.
+    truth open = TRUE;
+    real part = REAL((float)CUTS), before = n[CUTS - 1], after = c.after;
+    for (int i = 0; i < CUTS; ++i) {
+      const truth passes = ((n[i] >= threshold) ^ !c.enters) & open & TRUE;
+      part = select(part, REAL((float)i), passes);
+      before = select(before, i == 0 ? c.before : n[max(i - 1, 0)], passes);
+      after = select(after, n[i], passes);
+      open &= !passes;
+    }
+    c.piece = fma(part, REAL(width), c.piece);
+    c.before = before, c.after = after;
   }
   const real rise = c.after - c.before;
   const real share = select((threshold - c.before) / rise, REAL(0.5f), fabs(rise) < 1e-20f);
-  return fma(clamp(share, 0.0f, 1.0f), step, t);
+  return step * fma(clamp(share, 0.0f, 1.0f), width, c.piece);
 }
 
 // ---- Rays ----
@@ -408,7 +475,8 @@ static int first_of(truth lanes) {
   return lane;
 }
 
-static Beam beam_of(Real3 p, Real3 d, real step, truth lanes) {
+// From the anchor.
+static Beam beam_of(const Block* block, Real3 p, Real3 d, real step, truth lanes) {
   const Reals px = {.v = p.x}, py = {.v = p.y}, pz = {.v = p.z};
   const Reals dx = {.v = d.x}, dy = {.v = d.y}, dz = {.v = d.z};
   const int lane = first_of(lanes);
@@ -424,14 +492,16 @@ static Beam beam_of(Real3 p, Real3 d, real step, truth lanes) {
   const real apart = fmax(fma(x0, x0, fma(y0, y0, z0 * z0)), fma(x1, x1, fma(y1, y1, z1 * z1)));
   const Reals square = {.v = select(REAL(0.0f), apart, lanes)};
   for (int i = 0; i < LANES; ++i) b.width = fmax(b.width, square.lane[i]);
-  b.width = sqrt(b.width) + BEAM_SLACK;
+  const float x = (float)block->low[0], y = (float)block->low[1], z = (float)block->low[2];
+  b.x += x, b.y += y, b.z += z;
+  b.width = sqrt(b.width) + BEAM_SLACK * fmax(1.0f, 1e-4f * (fabs(x) + fabs(y) + fabs(z)));
   return b;
 }
 
 // rays: an origin and a unit direction each. hits: the distance, infinite where there is none, and
 // the gradient of N, up to a positive factor.
 kernel void rays_closest(GRID_ARGUMENTS, global const Kernel* restrict kernels,
-                         global const float* restrict radii, global const uint* restrict first,
+                         global const float4* restrict balls, global const uint* restrict first,
                          global const uint* restrict list, float threshold, uint count,
                          global const float* restrict rays, global float4* restrict hits) {
   const uint first_ray = get_global_id(0) * LANES;
@@ -464,7 +534,11 @@ kernel void rays_closest(GRID_ARGUMENTS, global const Kernel* restrict kernels,
 
   truth active = end > 0.0f;
   truth inside = FALSE, known = entry > 0.0f;  // on which side of the surface
-  Source source = {{0, 0, 0}, kernels, radii, list, 0, {0}, 0, &grid, threshold};
+  Source source;
+  source.kernels = kernels;
+  source.balls = balls;
+  source.grid = &grid;
+  source.threshold = threshold;
   real t = REAL(0.0f);
   Reals distance = {.v = REAL(INFINITY)};
   Reals gradient[3] = {{.v = REAL(0.0f)}, {.v = REAL(0.0f)}, {.v = REAL(0.0f)}};
@@ -518,7 +592,7 @@ kernel void rays_closest(GRID_ARGUMENTS, global const Kernel* restrict kernels,
     (void)first;
 #endif
     real n[STEPS];
-    sum_first(&source, p0, d, finer, beam_of(p0, d, finer, here), n);
+    sum_way(&source, p0, d, finer, beam_of(&block, p0, d, finer, here), n);
     inside = select(inside, n[0] >= threshold, here & !known);
     const Crossing crossing = first_crossing(n, threshold, inside);
     const truth crossed = crossing.found & here;

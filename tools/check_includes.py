@@ -36,7 +36,7 @@ ROOMS = {
     ),
     "cli": ((), ("cli11", "json")),
     "bench": (
-        ("density", "device", "pipeline", "surface"),
+        ("density", "device", "picture", "pipeline", "surface"),
         ("cgal", "cli11", "gtest", "json", "opencl", "openvdb", "tbb"),
     ),
 }

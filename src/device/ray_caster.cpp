@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <string>
+#include <vector>
 
 #include "device/engine.h"
 
@@ -21,6 +22,22 @@ std::string closest_options(bool sampled, int lanes, int falloff) {
          " -DLANES=" + std::to_string(lanes) + (sampled ? " -DSAMPLED" : "");
 }
 
+/// What a kernel reaches, voxels from the lattice's anchor, as the device reads it.
+struct alignas(16) Ball {
+  Vec3f centre;
+  float radius;
+};
+
+std::vector<Ball> balls_around(const KernelSet& kernels) {
+  std::vector<Ball> balls;
+  balls.reserve(kernels.kernels().size());
+  for (std::size_t i = 0; i < kernels.kernels().size(); ++i) {
+    const LatticeKernel& kernel = kernels.kernels()[i];
+    balls.push_back({Vec3f(to_vec3d(kernel.cell) + Vec3d(kernel.offset)), kernels.radii()[i]});
+  }
+  return balls;
+}
+
 }  // namespace
 
 struct RayCaster::Impl {
@@ -30,7 +47,8 @@ struct RayCaster::Impl {
   int falloff;
   bool sampled;
   int lanes;  ///< rays that a work-item of rays_closest takes
-  cl::Buffer roots, children, samples, drawn, near, kernels, radii, first, list;
+  std::vector<Ball> all_balls;
+  cl::Buffer roots, children, samples, drawn, near, kernels, balls, first, list;
 
   Impl(Device& device, const BrickGrid& brick_grid, double t, int k, bool from_samples)
       : engine(device.engine()),
@@ -85,7 +103,8 @@ RayCaster::RayCaster(Device& device, const BrickGrid& grid, double threshold,
   Impl& d = *impl_;
   d.engine.run("sending the kernels", [&] {
     d.kernels = d.engine.buffer(kernels.kernels(), CL_MEM_READ_ONLY);
-    d.radii = d.engine.buffer(kernels.radii(), CL_MEM_READ_ONLY);
+    d.all_balls = balls_around(kernels);
+    d.balls = d.engine.input(d.all_balls);
     d.first = d.engine.input(lists.first);
     d.list = d.engine.input(lists.kernels);
   });
@@ -95,7 +114,7 @@ RayCaster::RayCaster(Device& device, const BrickGrid& grid, double threshold)
     : impl_(std::make_unique<Impl>(device, grid, threshold, 2, true)) {
   Impl& d = *impl_;
   d.engine.run("sending the field", [&] {
-    for (cl::Buffer* unused : {&d.kernels, &d.radii, &d.first, &d.list}) {
+    for (cl::Buffer* unused : {&d.kernels, &d.balls, &d.first, &d.list}) {
       *unused = cl::Buffer(d.engine.context, CL_MEM_READ_ONLY, 1);
     }
   });
@@ -109,7 +128,7 @@ void RayCaster::closest(std::span<const VoxelRay> rays, std::span<VoxelHit> hits
   d.engine.run("casting rays", [&] {
     cl::Kernel kernel = d.kernel("rays_closest", d.lanes);
     kernel.setArg(7, d.kernels);
-    kernel.setArg(8, d.radii);
+    kernel.setArg(8, d.balls);
     kernel.setArg(9, d.first);
     kernel.setArg(10, d.list);
     kernel.setArg(11, d.threshold);
