@@ -234,6 +234,10 @@ kernel void rays_blocked(GRID_ARGUMENTS, float threshold, float soft, float reac
     t = fmax(t, fmin(to_low, to_high));
     end = fmin(end, fmax(to_low, to_high));
   }
+  // From here the ray begins where it enters the grid: in a large t the nudge would be lost.
+  for (int a = 0; a < 3; ++a) o[a] = fma(t, d[a], o[a]);
+  end -= t;
+  t = 0.0f;
   float most = 0.0f;
   int counts = 0;  // inside of what is drawn: its surface was passed
   while (t < end && most < 1.0f) {
@@ -247,7 +251,7 @@ kernel void rays_blocked(GRID_ARGUMENTS, float threshold, float soft, float reac
       if (counts) most = fmax(most, fmin(above / soft, 1.0f));
       t += 1.0f;
     } else {
-      if (block.content == INSIDE) most = 1.0f;
+      if ((block.content == INSIDE) & counts) most = 1.0f;
       float leaves = INFINITY;
       for (int a = 0; a < 3; ++a) {
         const float far = (float)(block.low[a] + (d[a] > 0.0f ? block.edge : 0));

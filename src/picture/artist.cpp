@@ -6,6 +6,7 @@
 #include <numbers>
 #include <utility>
 
+#include "leafhull/error.h"
 #include "picture/parts.h"
 #include "pipeline/stopwatch.h"
 #include "pipeline/thread_limit.h"
@@ -33,6 +34,11 @@ double longer_angle(double angle, double aspect) {
 
 render::Camera camera_at(const View& view, const render::Placement& placement, float aspect) {
   const auto in_scene = [&](Vec3d p) { return (p - placement.origin) * placement.scale; };
+  constexpr double kFarthest = 1e9;  // beyond it rays are no floats
+  if (!(length(in_scene(view.eye)) < kFarthest)) {
+    throw Error(ErrorCode::usage, "the camera is too far from what it should draw",
+                "Give an eye nearer to it, in the model's units.");
+  }
   return render::look_at(in_scene(view.eye), in_scene(view.target), view.up,
                          longer_angle(view.angle, static_cast<double>(aspect)), aspect);
 }

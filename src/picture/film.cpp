@@ -26,7 +26,7 @@ namespace {
 /// Frames come from descriptor 0. The film goes to descriptor 3, which unlike a name is no new file
 /// where the old one has been removed meanwhile; the same frames make the same film.
 constexpr std::string_view kInput =
-    "ffmpeg -nostdin -hide_banner -loglevel error -f rawvideo -pixel_format rgb24";
+    "ffmpeg -nostdin -hide_banner -loglevel error -xerror -f rawvideo -pixel_format rgb24";
 constexpr std::string_view kOutput = "-fflags +bitexact -flags:v +bitexact -y file:/proc/self/fd/3";
 
 /// H.264 keeps its colours at half the size, so both sides must be even: paper where they are not.

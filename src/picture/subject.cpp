@@ -176,8 +176,11 @@ Subject shape_subject(std::shared_ptr<const TreeModel> shape) {
 bool is_shape(const TreeModel& file) {
   return std::ranges::all_of(file.instances, [&](const Instance& instance) {
     const Primitive& primitive = file.primitives[instance.primitive];
+    const Material* material =
+        primitive.material < 0 ? nullptr : &file.materials[primitive.material];
     const bool bare = primitive.mesh_name.empty() && instance.node_name.empty() &&
-                      (primitive.material < 0 || file.materials[primitive.material].name.empty());
+                      (!material || (material->name.empty() &&
+                                     material->alpha_mode == AlphaMode::opaque));
     return bare || primitive.mesh_name == kShapeName;
   });
 }

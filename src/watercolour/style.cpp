@@ -140,7 +140,7 @@ Json parse_json(std::string_view text, const Source& source) {
   Json json;
   try {
     json = Json::parse(text);
-  } catch (const Json::parse_error& error) {
+  } catch (const Json::exception& error) {
     source.fail(std::string("not JSON: ") + error.what(),
                 "Give a style file, such as those in styles/.");
   }
