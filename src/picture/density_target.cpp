@@ -51,7 +51,7 @@ void DensityTarget::closest(std::span<const render::Ray> rays,
                   : dot(outward, direction) > 0 ? -outward
                                                 : outward;
     spot.face_normal = spot.normal;
-    spot.position = origin + direction * spot.distance + spot.normal * (kLift / voxels);
+    spot.start = origin + direction * spot.distance + spot.normal * (kLift / voxels);
     spot.color = color_;
   });
 }
@@ -78,7 +78,7 @@ void DensityTarget::openness(std::span<const render::Spot> spots,
     if (!spots[i].hit()) continue;
     const Vec3f towards = render::cosine_direction(spots[i].normal, directions[turns[i]]);
     if (!(dot(towards, spots[i].face_normal) > 0)) continue;
-    rays.push_back(in_voxels(spots[i].position, towards));
+    rays.push_back(in_voxels(spots[i].start, towards));
     asked.push_back(i);
   }
   std::vector<float> blocked(rays.size());

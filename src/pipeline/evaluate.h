@@ -39,10 +39,10 @@ class DensityFunction {
     std::uint64_t pairs = 0;  ///< kernel-sample pairs evaluated
     BrickList lists;          ///< the kernels near each brick of the field, where asked for
   };
+  enum class Lists { forget, keep };  ///< of the kernels near each brick
   /// N where a surface N = T may be, for all `thresholds`, ascending (`dense`: wherever a support
   /// reaches), blocks being grown by `margin` voxels before they are decided. `advance` is told the
   /// share that is done. The field's own threshold is the lowest.
-  enum class Lists { forget, keep };
   Sampled sample_band(std::vector<double> thresholds, int margin, bool dense, Lists lists,
                       const std::function<void(double)>& advance);
 

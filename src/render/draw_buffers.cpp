@@ -107,6 +107,10 @@ class BufferPainter {
     return spot.distance * dot(ray.direction, camera_.forward);
   }
 
+  static Vec3f place_of(const Spot& spot, const Ray& ray) {
+    return spot.hit() ? ray.origin + ray.direction * spot.distance : Vec3f{};
+  }
+
   std::vector<Spot> nearest(std::span<const Ray> rays) const {
     std::vector<Spot> spots(rays.size()), others(targets_.size() > 1 ? rays.size() : 0);
     for (std::size_t t = 0; t < targets_.size(); ++t) {
@@ -130,7 +134,7 @@ class BufferPainter {
     for (std::size_t i = 0; i < spots.size(); ++i) {
       const Vec3f key = key_turns_[turns[i]];
       if (!spots[i].hit() || dot(spots[i].normal, key) <= 0) continue;
-      rays.push_back({spots[i].position, key});
+      rays.push_back({spots[i].start, key});
       facing.push_back(i);
     }
     std::vector<Light> light(spots.size());
@@ -164,7 +168,7 @@ class BufferPainter {
       buffers_.wood[at] = spots[i].object == Object::wood;
       buffers_.depth[at] = depth_of(spots[i], rays[i]);
       buffers_.normal[at] = spots[i].normal;
-      buffers_.position[at] = spots[i].position;
+      buffers_.position[at] = place_of(spots[i], rays[i]);
       buffers_.color[at] = spots[i].color;
       buffers_.key[at] = light[i].key;
       buffers_.open[at] = light[i].open;
@@ -265,9 +269,10 @@ class BufferPainter {
     for_each(samples.size(), [&](std::size_t i) {
       const Spot& spot = spots[i];
       EdgeSample& sample = samples[i];
-      sample = {
-          spot.object, depth_of(spot, rays[i]), spot.normal, spot.position, spot.color, sample.key,
-          sample.open};
+      sample = {spot.object, depth_of(spot, rays[i]),
+                spot.normal, place_of(spot, rays[i]),
+                spot.color,  sample.key,
+                sample.open};
       lit[i] = !spot.hit() || light_like(pixel_at(edges[i / edge_rays_]), sample);
     });
     light_alone(samples, spots, lit);

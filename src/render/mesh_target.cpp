@@ -62,7 +62,7 @@ void MeshSurroundings::openness(std::span<const Spot> spots, std::span<const std
   for (std::size_t i = 0; i < spots.size(); ++i) {
     open[i] = 0;
     if (!(dot(towards[i], spots[i].face_normal) > 0)) continue;
-    rays.push_back({spots[i].position, towards[i]});
+    rays.push_back({spots[i].start, towards[i]});
     asked.push_back(i);
   }
   const std::vector<std::uint8_t> hidden = render::occluded(targets_, rays, kSkyReach);

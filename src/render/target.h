@@ -19,7 +19,7 @@ struct Ray {
 struct Spot {
   float distance = HUGE_VALF;  ///< infinite where there is none
   Object object = Object::paper;
-  Vec3f position;     ///< where to shade; rays to light start here
+  Vec3f start;        ///< of rays to light: off the surface by what it is not sure of
   Vec3f normal;       ///< unit, smooth, on the ray's side
   Vec3f face_normal;  ///< unit, of the surface itself; rays below it are hidden
   Vec3f color;        ///< linear

@@ -37,6 +37,7 @@ Subject subject_of(const std::shared_ptr<const TreeModel>& tree, const Options& 
 /// How well two pictures of one view agree.
 struct Agreement {
   double overlap = 0;      ///< of the silhouettes: intersection over union
+  double foliage = 0;      ///< the same of the foliage alone
   double median_turn = 0;  ///< between the normals, degrees
   double far_apart = 0;    ///< share of pixels on one silhouette alone and over a pixel from both
 };
@@ -45,14 +46,17 @@ Agreement agreement(const Buffers& a, const Buffers& b) {
   const auto covered = [](const Buffers& buffers, int x, int y) {
     return buffers.object[static_cast<std::size_t>(y) * buffers.width + x] != Object::paper;
   };
-  std::size_t both = 0, either = 0, apart = 0;
+  std::size_t both = 0, either = 0, apart = 0, foliage_in_both = 0, foliage = 0;
   std::vector<double> turns;
   for (int y = 0; y < a.height; ++y) {
     for (int x = 0; x < a.width; ++x) {
       const std::size_t i = static_cast<std::size_t>(y) * a.width + x;
       const bool in_a = covered(a, x, y), in_b = covered(b, x, y);
       both += in_a && in_b, either += in_a || in_b;
-      if (a.object[i] == Object::foliage && b.object[i] == Object::foliage) {
+      const bool leaf_a = a.object[i] == Object::foliage, leaf_b = b.object[i] == Object::foliage;
+      foliage += leaf_a || leaf_b;
+      if (leaf_a && leaf_b) {
+        ++foliage_in_both;
         const double cosine = std::clamp(dot(Vec3d(a.normal[i]), Vec3d(b.normal[i])), -1.0, 1.0);
         turns.push_back(std::acos(cosine) * 180 / M_PI);
       }
@@ -70,7 +74,8 @@ Agreement agreement(const Buffers& a, const Buffers& b) {
   }
   const auto middle = turns.begin() + static_cast<std::ptrdiff_t>(turns.size() / 2);
   std::nth_element(turns.begin(), middle, turns.end());
-  return {static_cast<double>(both) / static_cast<double>(either), *middle,
+  return {static_cast<double>(both) / static_cast<double>(either),
+          static_cast<double>(foliage_in_both) / static_cast<double>(foliage), *middle,
           static_cast<double>(apart) / static_cast<double>(either)};
 }
 
@@ -86,10 +91,20 @@ void expect_direct_as_mesh(const std::filesystem::path& file, Style style) {
   const Rendering direct = draw(subject_of(tree, options, Surfacing::direct), picture, device());
   const Rendering mesh = draw(subject_of(tree, options, Surfacing::mesh), picture, device());
   const Agreement found = agreement(*direct.buffers, *mesh.buffers);
-  std::printf("%-20s %-12s overlap %.4f, normals %.3f degrees apart, %.5f over a pixel\n",
-              file.filename().c_str(), std::string(name(style)).c_str(), found.overlap,
-              found.median_turn, found.far_apart);
+  std::printf(
+      "%-20s %-12s overlap %.4f, foliage alone %.4f, normals %.3f degrees apart, %.5f over a "
+      "pixel\n",
+      file.filename().c_str(), std::string(name(style)).c_str(), found.overlap, found.foliage,
+      found.median_turn, found.far_apart);
   EXPECT_GE(found.overlap, 0.995);
+  EXPECT_GE(found.foliage, 0.995);
+  for (const Rendering* one : {&direct, &mesh}) {
+    const Buffers& seen = *one->buffers;
+    for (std::size_t i = 0; i < seen.size(); ++i) {
+      if (seen.object[i] == Object::paper) continue;
+      ASSERT_NEAR(dot(seen.eye - seen.position[i], seen.to_eye), seen.depth[i], 1e-4f) << i;
+    }
+  }
   EXPECT_LT(found.median_turn, 3);
   EXPECT_LT(found.far_apart, 0.001);
 }

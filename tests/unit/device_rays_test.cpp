@@ -238,5 +238,35 @@ TEST(Rays, AreBlockedByWhatLiesAboveT) {
   EXPECT_EQ(blocked[0], 0);
 }
 
+TEST(Rays, ToTheLightComeFromAsFarAsTheyLike) {
+  Device& cpu = device("vector");
+  const Subject subject({sphere({0, 0, 0}, 10)}, 1, cpu);
+  std::vector<VoxelRay> rays;
+  for (const float far : {1e3f, 1e5f, 1e7f}) {
+    rays.push_back({Vec3f(subject.lattice.local({-far, 0, 0})), {1, 0, 0}});
+    rays.push_back({Vec3f(subject.lattice.local({-far, 0, 12})), {1, 0, 0}});
+  }
+  std::vector<float> blocked(rays.size());
+  subject.exact(cpu).blocked(rays, kThreshold, HUGE_VALF, blocked);
+  for (std::size_t i = 0; i < rays.size(); i += 2) {
+    EXPECT_GT(blocked[i], 0.5f) << i;
+    EXPECT_EQ(blocked[i + 1], 0) << i;
+  }
+}
+
+TEST(Rays, WhatIsNotDrawnCastsNoShadow) {
+  Device& cpu = device("vector");
+  // So large a ball that bricks in its middle are proven inside.
+  Subject subject({sphere({0, 0, 0}, 120), sphere({300, 0, 0}, 10)}, 1, cpu);
+  ASSERT_FALSE(subject.field.inside().empty());
+  const VoxelRay ray{Vec3f(subject.lattice.local({-200, 0, 0})), {1, 0, 0}};
+  float blocked = 2;
+  subject.exact(cpu).blocked({&ray, 1}, 1e-6f, 400, {&blocked, 1});
+  EXPECT_EQ(blocked, 1);
+  subject.grid->draw_only({}, {});
+  subject.exact(cpu).blocked({&ray, 1}, 1e-6f, 400, {&blocked, 1});
+  EXPECT_EQ(blocked, 0);
+}
+
 }  // namespace
 }  // namespace leafhull

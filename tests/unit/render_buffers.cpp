@@ -63,9 +63,9 @@ TEST(RenderBuffers, ABallIsSeenWhereItStands) {
         continue;
       }
       ++seen;
-      ASSERT_LT(apart(buffers.position[i], spot.position), 1e-6f);
+      ASSERT_LT(apart(buffers.position[i], spot.start), 1e-6f);
       ASSERT_LT(apart(buffers.normal[i], spot.normal), 1e-6f);
-      ASSERT_NEAR(buffers.depth[i], 5 - spot.position.z, 1e-5f);
+      ASSERT_NEAR(buffers.depth[i], 5 - spot.start.z, 1e-5f);
       ASSERT_EQ(buffers.color[i], spot.color);
     }
   }
@@ -142,7 +142,7 @@ TEST(RenderBuffers, NeighboursOnOtherSurfacesShareNothing) {
   class NearOpen : public Surroundings {
     void openness(std::span<const Spot> spots, std::span<const std::uint8_t>,
                   std::span<float> open) const override {
-      for (std::size_t i = 0; i < spots.size(); ++i) open[i] = spots[i].position.z > 0;
+      for (std::size_t i = 0; i < spots.size(); ++i) open[i] = spots[i].start.z > 0;
     }
   };
   const Buffers buffers = draw(targets, from_front(4), 32, 32, NearOpen());
