@@ -22,8 +22,10 @@ Coord root_of(Coord cell) {
   return {origin.x / kRootEdge, origin.y / kRootEdge, origin.z / kRootEdge};
 }
 
-int child_index(Coord cell) {
-  const auto along = [](std::int32_t v) { return v / kBrickEdge & (kBricksAlong - 1); };
+std::size_t child_index(Coord cell) {
+  const auto along = [](std::int32_t v) {
+    return static_cast<std::size_t>(v / kBrickEdge & (kBricksAlong - 1));
+  };
   const Coord b = block_origin(cell, kBrickEdge);
   return (along(b.x) * kBricksAlong + along(b.y)) * kBricksAlong + along(b.z);
 }
@@ -103,7 +105,7 @@ std::int32_t& BrickGrid::child(Coord cell) {
     first = static_cast<std::int32_t>(children.size());
     children.insert(children.end(), kChildren, kOutside);
   }
-  return children[static_cast<std::size_t>(first + child_index(cell))];
+  return children[static_cast<std::size_t>(first) + child_index(cell)];
 }
 
 std::int32_t BrickGrid::content(Coord cell) const {
@@ -114,7 +116,7 @@ std::int32_t BrickGrid::content(Coord cell) const {
   if (!within) return kOutside;
   const std::int32_t first =
       roots[static_cast<std::size_t>((std::int64_t{at.x} * size.y + at.y) * size.z + at.z)];
-  return first < 0 ? first : children[static_cast<std::size_t>(first + child_index(cell))];
+  return first < 0 ? first : children[static_cast<std::size_t>(first) + child_index(cell)];
 }
 
 /// Cells with corners on both sides.

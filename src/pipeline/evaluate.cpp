@@ -61,7 +61,8 @@ std::vector<float> DensityFunction::interpolated_at(std::span<const Vec3d> point
 DensityFunction::Sampled DensityFunction::sample_band(std::vector<double> thresholds, int margin,
                                                       bool dense, Lists lists,
                                                       const std::function<void(double)>& advance) {
-  Sampled result{Field(kernels_.lattice(), thresholds.front())};
+  Sampled result;
+  result.field = Field(kernels_.lattice(), thresholds.front());
   if (dense) thresholds.clear();
   const BandOptions options{
       .thresholds = std::move(thresholds), .falloff = falloff_, .margin = margin};
