@@ -125,8 +125,10 @@ struct Rendering {
 };
 
 /// A picture of the subject: the same bytes for the same subject, options and device.
+/// @param progress `done` is the share of the picture.
 /// @throws Error as check_picture does; device.
-Rendering draw(const Subject& subject, const PictureOptions& options, Device& device);
+Rendering draw(const Subject& subject, const PictureOptions& options, Device& device,
+               const Progress& progress = {});
 
 /// The picture and what its pixels see, as an OpenEXR file: R G B, A, Z, N, P, id, key, open,
 /// foliage, wood.
@@ -154,7 +156,7 @@ struct PictureSummary {
 
 /// Draws and writes, one file after the other, each whole or not at all. The frames of a turntable
 /// are numbered, picture-0001.png; beside them comes picture.mp4 where ffmpeg is on the PATH.
-/// @param progress `done` is the share of the frames.
+/// @param progress `done` is the share of all pictures.
 /// @throws Error as draw does; output: which file and why.
 PictureSummary write_pictures(const Subject& subject, const PictureOptions& options,
                               const PictureFiles& files, Device& device,

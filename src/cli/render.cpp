@@ -214,7 +214,8 @@ class Run {
           if (frames == 0) {
             console_.progress(stage, done);
           } else {
-            console_.progress(stage, static_cast<std::size_t>(std::lround(done * frames)),
+            // A frame counts once it is drawn; its share is not exact.
+            console_.progress(stage, static_cast<std::size_t>(std::floor(done * frames + 1e-6)),
                               static_cast<std::size_t>(frames));
           }
         });

@@ -91,18 +91,23 @@ Picture figure17(const std::shared_ptr<const TreeModel>& tree, const LeafSet& le
   Artist artist(device);
   std::vector<LabelledPicture> rows;
   for (const Row& row : kRows) {
-    const auto tell = [&](std::string_view stage) {
-      const double done = static_cast<double>(rows.size()) / kRows.size();
+    const auto tell = [&](std::string_view stage, double share) {
+      const double done = (static_cast<double>(rows.size()) + share) / kRows.size();
       if (progress) progress(std::string(name(row.style)) + ": " + std::string(stage), done);
+    };
+    // A row is a surface and two pictures of it.
+    const auto part = [&](int before) {
+      return [&tell, before](std::string_view stage, double share) {
+        tell(stage, (before + share) / 3);
+      };
     };
     const Subject subject = tree_subject(
         tree, leaves, options_of(row, options), surfacing, device,
-        [&](std::string_view stage, double) { tell(stage); }, frame);
-    tell("draw");
+        [&](std::string_view stage, double) { tell(stage, 0); }, frame);
     picture.look = Look::phong;
-    const Picture phong = artist.draw(subject, picture).picture;
+    const Picture phong = artist.draw(subject, picture, part(1)).picture;
     picture.look = Look::watercolour;
-    const Picture watercolour = artist.draw(subject, picture).picture;
+    const Picture watercolour = artist.draw(subject, picture, part(2)).picture;
     rows.push_back({side_by_side(phong, watercolour), {row.caption, parameters(subject.report())}});
   }
   return contact_sheet("", rows, 1);

@@ -4,12 +4,16 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "leafhull/error.h"
 #include "leafhull/render.h"
 #include "picture/artist.h"
 #include "picture/parts.h"
 #include "render/buffers.h"
+#include "temporary_folder.h"
 #include "watercolour/style.h"
 
 namespace leafhull::test {
@@ -99,6 +103,29 @@ TEST(Views, GoRoundTheMiddleOfTheSubject) {
   EXPECT_NEAR(length(eye(0) - (kMiddle + Vec3d(0, 0, 3))), 0, 1e-5);
   EXPECT_NEAR(length(eye(0.25) - (kMiddle + Vec3d(3, 0, 0))), 0, 1e-5);
   EXPECT_NEAR(length(eye(0.5) - (kMiddle + Vec3d(0, 0, -3))), 0, 1e-5);
+}
+
+TEST(Drawing, TellsHowFarItIs) {
+  const Subject subject = shape_subject(cube());
+  std::vector<std::pair<std::string, double>> told;
+  const Progress progress = [&](std::string_view stage, double done) {
+    told.emplace_back(stage, done);
+  };
+  draw(subject, facing_the_cube(640, 640), device(), progress);
+  const auto by_share = [](const auto& a, const auto& b) { return a.second < b.second; };
+  EXPECT_TRUE(std::is_sorted(told.begin(), told.end(), by_share));
+  EXPECT_EQ(told.front(), std::pair("rays", 0.0));
+  EXPECT_EQ(told.back().first, "paint");
+  const auto within = std::count_if(told.begin(), told.end(), [](const auto& step) {
+    return step.first == "rays" && step.second > 0 && step.second < 0.8;
+  });
+  EXPECT_GE(within, 5) << "a step for each band";
+
+  const TemporaryFolder folder;
+  told.clear();
+  write_pictures(subject, facing_the_cube(16, 16), {{folder / "a.exr"}, 3}, device(), progress);
+  EXPECT_TRUE(std::is_sorted(told.begin(), told.end(), by_share));
+  EXPECT_EQ(told.back(), std::pair("write", 1.0));
 }
 
 TEST(Strokes, AreLeavesInPixels) {
