@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "cli/console.h"
+#include "cli/flags.h"
 #include "cli/signals.h"
 #include "cli/values.h"
 #include "cli/verb.h"
@@ -28,6 +29,10 @@ std::string lower_extension(const fs::path& file) {
 }
 
 bool is_field(const Arguments& arguments) { return lower_extension(arguments.tree) == ".vdb"; }
+
+Surfacing surfacing(const Arguments& arguments) {
+  return arguments.surfacing.value_or(Surfacing::direct);
+}
 
 /// Whether a word that is no name was meant to be a file's.
 bool looks_like_file(const std::string& text) {
@@ -77,23 +82,32 @@ void check_figure17(const Arguments& arguments) {
 /// Options that were typed but change nothing.
 std::vector<std::string> without_effect(const Arguments& arguments, bool is_tree) {
   std::vector<std::string> warnings;
-  const auto warn = [&](std::string_view option, const std::string& why) {
-    warnings.push_back("--" + std::string(option) + " has no effect " + why);
+  const auto warn = [&](const std::string& option, const std::string& why) {
+    warnings.push_back(option + " has no effect " + why);
   };
   const Look look = arguments.drawing.look;
   if (look != Look::watercolour && !arguments.figure17) {
     const std::string why = "with --look " + std::string(name(look));
-    if (!arguments.watercolour_style.empty()) warn("watercolour-style", why);
-    if (arguments.detail) warn("detail", why);
+    if (!arguments.watercolour_style.empty()) warn("--watercolour-style", why);
+    if (arguments.detail) warn("--detail", why);
   } else if (!is_tree && arguments.detail) {
-    warn("detail", "where there are no leaves");
+    warn("--detail", "where there are no leaves");
   }
-  for (const std::string_view option : arguments.given) {
-    const bool of_rows = option == "style" || option == "method";
-    if (arguments.figure17 && of_rows) warn(option, "on --figure17, whose rows set it");
-    if (is_tree) continue;
-    if (!is_field(arguments)) warn(option, "on a shape that is drawn as it is");
-    if (is_field(arguments) && option != "threshold") warn(option, "on a density from a file");
+  if (is_field(arguments) && arguments.is_shape) warn("--as", "on a density from a file");
+  const bool is_meshed = surfacing(arguments) == Surfacing::mesh;
+  for (const OptionRow& row : option_table()) {
+    if (!arguments.given.contains(row.name)) continue;
+    const std::string option = spelling(row);
+    const bool of_rows = row.name == "style" || row.name == "method";
+    const bool of_mesh = row.name == "snap" || row.name == "mesher" || row.name == "adaptivity";
+    if (is_tree) {
+      if (of_rows && arguments.figure17) warn(option, "on --figure17, whose rows set it");
+      if (of_mesh && !is_meshed) warn(option, "without --surface mesh");
+    } else if (!is_field(arguments)) {
+      warn(option, "on a shape that is drawn as it is");
+    } else if (row.name != "threshold") {
+      warn(option, "on a density from a file");
+    }
   }
   return warnings;
 }
@@ -125,7 +139,8 @@ class Run {
       warn(without_effect(arguments_, false));
       Device& device = open();
       const std::optional<double> threshold = arguments_.options.threshold;
-      write(field_subject(arguments_.tree, threshold, surfacing(), device, progress()), device);
+      write(field_subject(arguments_.tree, threshold, surfacing(arguments_), device, progress()),
+            device);
       return;
     }
     console_.progress("read", 0);
@@ -141,8 +156,6 @@ class Run {
   }
 
  private:
-  Surfacing surfacing() const { return arguments_.surfacing.value_or(Surfacing::direct); }
-
   Progress progress() {
     return [this](std::string_view stage, double done) { console_.progress(stage, done); };
   }
@@ -185,7 +198,7 @@ class Run {
       return;
     }
     const Subject subject =
-        tree_subject(model, leaves, arguments_.options, surfacing(), device, progress());
+        tree_subject(model, leaves, arguments_.options, surfacing(arguments_), device, progress());
     warn(subject.report().warnings);
     write(subject, device);
   }
@@ -193,8 +206,8 @@ class Run {
   void write_figure17(const std::shared_ptr<const TreeModel>& model, const LeafSet& leaves,
                       Device& device) {
     const fs::path& file = arguments_.pictures.files.front();
-    const Picture plate =
-        figure17(model, leaves, arguments_.options, surfacing(), drawing_, device, progress());
+    const Picture plate = figure17(model, leaves, arguments_.options, surfacing(arguments_),
+                                   drawing_, device, progress());
     const std::vector<std::uint8_t> png = encode_png(plate);
     write_file(file, {reinterpret_cast<const char*>(png.data()), png.size()});
     console_.say("leafhull: Figure 17 of " + arguments_.tree.filename().string() + " in " +

@@ -172,6 +172,8 @@ class Subjects(Render):
             self.assertTrue(any(is_green(pixel) for row in rows for pixel in row))
         result = self.render("--coverage", "0.5", *MESH, subject=self.field)
         self.assertIn("warning: --coverage has no effect", result.stderr)
+        result = self.render("--as", "tree", *MESH, subject=self.field)
+        self.assertIn("warning: --as has no effect", result.stderr)
 
     def test_a_density_that_cannot_be_drawn(self):
         self.refuse(["was sampled for T"], "--threshold", "50", subject=self.field)
@@ -186,6 +188,15 @@ class Subjects(Render):
             both = [(a != WHITE, b != WHITE) for p, q in zip(direct, mesh) for a, b in zip(p, q)]
             common = sum(a and b for a, b in both) / sum(a or b for a, b in both)
             self.assertGreater(common, 0.97, subject)
+
+    def test_options_of_meshes_do_not_count_without_one(self):
+        flags = ("--no-snap", "--mesher", "vdb", "--adaptivity", "0.5")
+        result = self.render(*flags)
+        for flag in ("--no-snap", "--mesher", "--adaptivity"):
+            warning = f"warning: {flag} has no effect without --surface mesh"
+            self.assertIn(warning, result.stderr)
+        self.assertEqual(self.picture.read_bytes(), self.bytes())
+        self.assertNotIn("no effect", self.render(*flags, *MESH).stderr)
 
     def test_an_empty_surface(self):
         for flags in ((), MESH):
