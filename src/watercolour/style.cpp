@@ -268,7 +268,8 @@ std::span<const StyleKey> style_keys() {
       {"detail", "[0, 1]", "how many leaves are painted one by one", &Style::detail, 0, 1},
       {"leaf_size", "[0.1, 10]", "the size of their strokes, in leaves", &Style::leaf_size, 0.1f,
        10},
-      {"leaf_width", "[0, 0.1]", "the least half-length of a stroke", &Style::leaf_width, 0, 0.1f},
+      {"leaf_width", "[0.0001, 0.1]", "the least half-length of a stroke", &Style::leaf_width,
+       0.0001f, 0.1f},
   };
   return keys;
 }
