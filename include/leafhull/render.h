@@ -162,6 +162,10 @@ PictureSummary write_pictures(const Subject& subject, const PictureOptions& opti
                               const PictureFiles& files, Device& device,
                               const Progress& progress = {});
 
+/// Looks at what figure17() would take, before any work is done; see check_picture.
+/// @throws Error usage, as check_picture; or a sheet that is too large for a PNG file.
+void check_figure17(const PictureOptions& picture, const DeviceInfo* device = nullptr);
+
 /// The plate of the paper's Figure 17: thin, fat and the previous method, in Phong shading and in
 /// watercolour. Each row sets the style, over which what else is in `options` wins, and the method;
 /// `look` and `turn` do not count.

@@ -61,7 +61,7 @@ WatercolourStyle style_of(const std::string& text, std::optional<double> detail)
   throw Error(ErrorCode::usage, what, remedy);
 }
 
-void check_figure17(const Arguments& arguments) {
+void check_figure17_flags(const Arguments& arguments) {
   const std::vector<fs::path>& files = arguments.pictures.files;
   if (arguments.pictures.frames > 0) {
     refuse("--figure17 and --turntable contradict each other", "Give one of the two.");
@@ -76,6 +76,15 @@ void check_figure17(const Arguments& arguments) {
   }
   if (is_field(arguments) || arguments.is_shape.value_or(false)) {
     refuse("--figure17 needs the tree itself", "Give a TREE.");
+  }
+}
+
+void check_size(const Arguments& arguments, const PictureOptions& drawing,
+                const DeviceInfo* device = nullptr) {
+  if (arguments.figure17) {
+    check_figure17(drawing, device);
+  } else {
+    check_picture(drawing, device);
   }
 }
 
@@ -116,12 +125,12 @@ std::vector<std::string> without_effect(const Arguments& arguments, bool is_tree
 /// style's.
 PictureOptions checked(const Arguments& arguments) {
   (void)resolve(arguments.options);
-  if (arguments.figure17) check_figure17(arguments);
+  if (arguments.figure17) check_figure17_flags(arguments);
   check_pictures(arguments.pictures, arguments.tree);
   PictureOptions drawing = arguments.drawing;
   drawing.camera = camera_of(arguments.camera);
   drawing.style = style_of(arguments.watercolour_style, arguments.detail);
-  check_picture(drawing);
+  check_size(arguments, drawing);
   return drawing;
 }
 
@@ -166,7 +175,7 @@ class Run {
 
   Device& open() {
     device_.emplace(opening_.get());
-    check_picture(drawing_, &device_->info());
+    check_size(arguments_, drawing_, &device_->info());
     console_.detail("device      " + device_->info().name);
     return *device_;
   }

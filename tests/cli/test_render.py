@@ -254,6 +254,9 @@ class Plate(Render):
         small = ("--figure17", "--size", "32x32", *MESH)
         self.assertNotEqual(self.bytes(*small, "--threshold", "60%"), self.bytes(*small))
 
+    def test_a_sheet_past_the_largest_file(self):
+        self.refuse(["sheet", "PNG", "--size"], "--figure17", "--size", "16384x16384")
+
     def test_contradictions(self):
         self.refuse(["--figure17", "--turntable"], "--figure17", "--turntable", "3")
         self.refuse(["--figure17", "--look depth"], "--figure17", "--look", "depth")

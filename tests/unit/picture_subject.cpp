@@ -254,6 +254,31 @@ TEST(PictureSizes, AreChecked) {
   EXPECT_NO_THROW(check_picture(options, &gpu)) << "shading takes none of the device's memory";
 }
 
+TEST(PictureSizes, TheSheetOfFigure17MustFitAFile) {
+  const auto refusal = [](int width, int height) {
+    PictureOptions options;
+    options.width = width, options.height = height;
+    try {
+      check_figure17(options);
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::usage);
+      return std::string(error.what()) + " " + error.remedy();
+    }
+    return std::string();
+  };
+  EXPECT_EQ(refusal(64, 64), "");
+  EXPECT_NE(refusal(0, 64).find("out of range"), std::string::npos);
+  const std::string message = refusal(16384, 16384);
+  EXPECT_NE(message.find("too large for a PNG file"), std::string::npos) << message;
+  int width = 0, height = 0;
+  ASSERT_EQ(std::sscanf(message.c_str() + message.find("--size"), "--size %dx%d", &width, &height),
+            2);
+  EXPECT_EQ(width, height);
+  EXPECT_GT(width, 10000);
+  EXPECT_EQ(refusal(width, height).find("PNG"), std::string::npos);
+  EXPECT_NE(refusal(width + 1, height + 1).find("PNG"), std::string::npos);
+}
+
 TEST(WatercolourStyles, TakeTheirDetailFromTheCall) {
   EXPECT_EQ(watercolour_styles().front(), "classic");
   EXPECT_EQ(read_watercolour_style("wet", 0.25)->detail, 0.25f);
