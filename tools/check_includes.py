@@ -12,7 +12,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 
 # Room: the rooms it may include beside itself, and the third-party libraries it may know.
 ROOMS = {
-    "input": ((), ("tinygltf", "tinyobjloader", "json", "draco", "meshoptimizer", "stb")),
+    "input": (("text",), ("tinygltf", "tinyobjloader", "json", "draco", "meshoptimizer", "stb")),
     "leaves": ((), ("eigen",)),
     "density": ((), ("openvdb", "tbb")),
     "device": (("density",), ("opencl",)),
@@ -22,7 +22,7 @@ ROOMS = {
     "text": ((), ()),
     "process": ((), ()),
     "render": (("text",), ("embree", "openexr", "stb", "tbb")),
-    "watercolour": (("device", "render"), ("json",)),
+    "watercolour": (("device", "render", "text"), ("json",)),
     "chart": (("process", "text"), ()),
     "sweep": (("chart", "output"), ("json",)),
     "study": ((), ()),

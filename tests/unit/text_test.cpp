@@ -21,6 +21,12 @@ TEST(Text, DecodesEveryLength) {
   EXPECT_EQ(decode_utf8(""), U"");
 }
 
+TEST(Text, OfAFileFitsALine) {
+  EXPECT_EQ(printable("a\nb\x1B\x7F\tλ"), "a b   λ");
+  EXPECT_EQ(printable("abc", 3), "abc");
+  EXPECT_EQ(printable("abcd", 3), "abc...");
+}
+
 TEST(Text, EncodesWhatItDecodes) {
   for (const std::string_view text : {"a\x7F", "λ\u07FF", "\u0800€\uFFFD", "🌳\U0010FFFF"}) {
     std::string again;
