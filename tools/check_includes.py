@@ -17,7 +17,7 @@ ROOMS = {
     "density": ((), ("openvdb", "tbb")),
     "device": (("density",), ("opencl",)),
     "surface": (("density",), ("openvdb", "tbb")),
-    "output": (("density", "surface"), ("tinygltf", "openvdb", "json")),
+    "output": (("density", "surface", "text"), ("tinygltf", "openvdb", "json")),
     "pipeline": (("density", "device", "surface"), ("tbb",)),
     "text": ((), ()),
     "process": ((), ()),
@@ -30,11 +30,11 @@ ROOMS = {
     "picture": (
         (
             "density", "device", "leaves", "output", "pipeline", "process", "render", "surface",
-            "watercolour",
+            "text", "watercolour",
         ),
         ("tbb",),
     ),
-    "cli": ((), ("cli11", "json")),
+    "cli": (("text",), ("cli11", "json")),
     "bench": (
         ("density", "device", "picture", "pipeline", "surface"),
         ("cgal", "cli11", "gtest", "json", "opencl", "openvdb", "tbb"),

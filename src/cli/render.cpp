@@ -16,28 +16,17 @@
 #include "leafhull/error.h"
 #include "leafhull/output.h"
 #include "leafhull/tree.h"
+#include "text/file_name.h"
 
 namespace leafhull::cli {
 namespace {
 
 namespace fs = std::filesystem;
 
-std::string lower_extension(const fs::path& file) {
-  std::string extension = file.extension().string();
-  for (char& c : extension) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c + ('a' - 'A') : c);
-  return extension;
-}
-
 bool is_field(const Arguments& arguments) { return lower_extension(arguments.tree) == ".vdb"; }
 
 Surfacing surfacing(const Arguments& arguments) {
   return arguments.surfacing.value_or(Surfacing::direct);
-}
-
-/// Whether a word that is no name was meant to be a file's.
-bool looks_like_file(const std::string& text) {
-  const fs::path file(text);
-  return file.has_extension() || file.has_parent_path() || fs::exists(file);
 }
 
 /// A viewpoint by its name, else the camera in a file.
@@ -52,8 +41,7 @@ std::variant<Viewpoint, View> camera_of(const std::string& text) {
 WatercolourStyle style_of(const std::string& text, std::optional<double> detail) {
   const auto valid = watercolour_styles();
   if (text.empty()) return read_watercolour_style(std::string(valid.front()), detail);
-  const bool is_name = std::find(valid.begin(), valid.end(), text) != valid.end();
-  if (!is_name && !looks_like_file(text)) choice("--watercolour-style", text, valid);
+  if (!looks_like_file(text)) choice("--watercolour-style", text, valid);
   return read_watercolour_style(text, detail);
 }
 
