@@ -20,7 +20,9 @@ namespace {
 
 constexpr float kMargin = 0.06f;
 constexpr double kTurn = 360;
-constexpr double kRaysShare = 0.9;  // of the time a picture takes, about
+
+/// Of the time that a picture takes, about.
+double share_of_rays(Look look) { return look == Look::watercolour ? 0.5 : 1; }
 
 render::Viewpoint viewpoint(Viewpoint named) {
   constexpr render::Viewpoint kViewpoints[] = {render::kFront, render::kThreeQuarter, render::kTop};
@@ -112,6 +114,7 @@ Rendering Artist::draw(const Subject& subject, const PictureOptions& options,
   Stopwatch watch(untold);
   const Subject::Parts& parts = subject.parts();
   Rendering rendering;
+  const double rays = share_of_rays(options.look);
   const auto start = [&](std::string_view stage, double done) {
     watch.start(stage);
     if (progress) progress(stage, done);
@@ -121,9 +124,9 @@ Rendering Artist::draw(const Subject& subject, const PictureOptions& options,
   const auto buffers = std::make_shared<const render::Buffers>(
       render::draw_buffers(parts.targets, parts.surroundings(), camera, options.width,
                            options.height, {}, [&](double done) {
-                             if (progress) progress("rays", kRaysShare * done);
+                             if (progress) progress("rays", rays * done);
                            }));
-  start("paint", kRaysShare);
+  start("paint", rays);
   rendering.picture = shade(parts, *buffers, camera, options);
   rendering.blank = std::ranges::all_of(
       buffers->object, [](render::Object object) { return object == render::Object::paper; });

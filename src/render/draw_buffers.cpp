@@ -22,7 +22,7 @@ constexpr int kTile = 4;  // pixels of a square of kTile x kTile look in differe
 constexpr int kTurns = Surroundings::kTurns;
 static_assert(kTile * kTile == kTurns);
 constexpr std::size_t kBatch = 1 << 16;  // rays
-constexpr double kLookShare = 0.7;       // of the time, about; the rest is for edges
+constexpr double kLookShare = 0.75;      // of the time, about; the rest is for edges
 
 /// How much of the light arrives at a point, 0..1.
 struct Light {

@@ -134,6 +134,9 @@ class Cameras(Render):
             file = self.input("camera.json", camera)
             self.refuse(["camera.json", *words], "--camera", file, code=3)
         self.refuse(["perspective camera"], "--camera", self.tree, code=3)
+        far = self.camera(eye=[0, 0, 1e30], target=[0, 0, 0])
+        for flags in ((), MESH):
+            self.refuse(["camera", "too far"], "--camera", far, *flags)
 
 
 class Subjects(Render):
@@ -236,6 +239,8 @@ class Watercolours(Render):
             (["own.json", "wetnes"], b'{"wetnes": 1}'),
             (["own.json", "bleeding"], b'{"bleeding": "much"}'),
             (["own.json", "shadow"], b'{"shadow": {"wetness": 99}}'),
+            (["own.json", "too large", "1e999"], b'{"sky": 1e999}'),
+            (["own.json", "no key 'a b'"], b'{"a\\nb": 1}'),
         ):
             self.refuse(words, style, self.input("own.json", text))
         self.refuse(["--detail '2'", "from 0 to 1"], "--detail", "2")

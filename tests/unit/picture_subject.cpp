@@ -64,6 +64,10 @@ TEST(ShapeFiles, AreKnownByTheirNames) {
   bare.materials.push_back({.name = "leaves"});
   bare.primitives.front().material = 0;
   EXPECT_FALSE(is_shape(bare));
+  bare.materials.front().name.clear();
+  EXPECT_TRUE(is_shape(bare)) << "a plain colour";
+  bare.materials.front().alpha_mode = AlphaMode::mask;
+  EXPECT_FALSE(is_shape(bare)) << "leaves cut out of cards";
   TreeModel both = *cube();
   both.primitives.push_back(cube("trunk")->primitives.front());
   both.instances.push_back({1, "node", kIdentity});
@@ -114,7 +118,7 @@ TEST(Drawing, TellsHowFarItIs) {
   draw(subject, facing_the_cube(640, 640), device(), progress);
   const auto by_share = [](const auto& a, const auto& b) { return a.second < b.second; };
   EXPECT_TRUE(std::is_sorted(told.begin(), told.end(), by_share));
-  EXPECT_EQ(told.front(), std::pair("rays", 0.0));
+  EXPECT_EQ(told.front(), std::pair(std::string("rays"), 0.0));
   EXPECT_EQ(told.back().first, "paint");
   const auto within = std::count_if(told.begin(), told.end(), [](const auto& step) {
     return step.first == "rays" && step.second > 0 && step.second < 0.8;
@@ -125,7 +129,7 @@ TEST(Drawing, TellsHowFarItIs) {
   told.clear();
   write_pictures(subject, facing_the_cube(16, 16), {{folder / "a.exr"}, 3}, device(), progress);
   EXPECT_TRUE(std::is_sorted(told.begin(), told.end(), by_share));
-  EXPECT_EQ(told.back(), std::pair("write", 1.0));
+  EXPECT_EQ(told.back(), std::pair(std::string("write"), 1.0));
 }
 
 TEST(Strokes, AreLeavesInPixels) {
@@ -175,8 +179,10 @@ TEST_F(Trees, HaveACardForEveryLeaf) {
   const Subject::Parts& parts = subject.parts();
   ASSERT_EQ(parts.leaves.size(), leaves().leaf_count);
   const LeafVertex& vertex = leaves().vertices.front();
+  const std::vector<std::uint32_t>& order = leaves().order_in_file;
+  const std::uint32_t in_file = order.empty() ? vertex.leaf : order[vertex.leaf];
   const auto card = std::find_if(parts.leaves.begin(), parts.leaves.end(),
-                                 [&](const LeafCard& leaf) { return leaf.leaf == vertex.leaf; });
+                                 [&](const LeafCard& leaf) { return leaf.leaf == in_file; });
   ASSERT_NE(card, parts.leaves.end());
   const auto scale = static_cast<float>(parts.placement.scale);
   EXPECT_NEAR(length(card->half_major), vertex.radius_major * scale, 1e-6f);
