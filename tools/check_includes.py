@@ -12,17 +12,17 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 
 # Room: the rooms it may include beside itself, and the third-party libraries it may know.
 ROOMS = {
-    "input": ((), ("tinygltf", "tinyobjloader", "json", "draco", "meshoptimizer", "stb")),
+    "input": (("text",), ("tinygltf", "tinyobjloader", "json", "draco", "meshoptimizer", "stb")),
     "leaves": ((), ("eigen",)),
     "density": ((), ("openvdb", "tbb")),
     "device": (("density",), ("opencl",)),
     "surface": (("density",), ("openvdb", "tbb")),
-    "output": (("density", "surface"), ("tinygltf", "openvdb", "json")),
+    "output": (("density", "surface", "text"), ("tinygltf", "openvdb", "json")),
     "pipeline": (("density", "device", "surface"), ("tbb",)),
     "text": ((), ()),
     "process": ((), ()),
     "render": (("text",), ("embree", "openexr", "stb", "tbb")),
-    "watercolour": (("device", "render"), ("json",)),
+    "watercolour": (("device", "render", "text"), ("json",)),
     "chart": (("process", "text"), ()),
     "sweep": (("chart", "output"), ("json",)),
     "study": ((), ()),
@@ -30,11 +30,11 @@ ROOMS = {
     "picture": (
         (
             "density", "device", "leaves", "output", "pipeline", "process", "render", "surface",
-            "watercolour",
+            "text", "watercolour",
         ),
         ("tbb",),
     ),
-    "cli": ((), ("cli11", "json")),
+    "cli": (("text",), ("cli11", "json")),
     "bench": (
         ("density", "device", "picture", "pipeline", "surface"),
         ("cgal", "cli11", "gtest", "json", "opencl", "openvdb", "tbb"),

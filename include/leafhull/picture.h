@@ -45,10 +45,12 @@ Picture contact_sheet(std::string_view title, std::span<const LabelledPicture> p
                       int columns);
 
 /// The picture as a PNG file.
+/// @throws Error usage: it is too large for one.
 std::vector<std::uint8_t> encode_png(const Picture& picture);
 
 /// The picture as a JPEG file: at a quality of 85 a sixth of the PNG file's size.
 /// @param quality 1 to 100.
+/// @throws Error usage: it is too large for one.
 std::vector<std::uint8_t> encode_jpeg(const Picture& picture, int quality);
 
 /// The picture that `file` is, a PNG.

@@ -125,8 +125,10 @@ struct Rendering {
 };
 
 /// A picture of the subject: the same bytes for the same subject, options and device.
+/// @param progress `done` is the share of the picture.
 /// @throws Error as check_picture does; device.
-Rendering draw(const Subject& subject, const PictureOptions& options, Device& device);
+Rendering draw(const Subject& subject, const PictureOptions& options, Device& device,
+               const Progress& progress = {});
 
 /// The picture and what its pixels see, as an OpenEXR file: R G B, A, Z, N, P, id, key, open,
 /// foliage, wood.
@@ -154,11 +156,15 @@ struct PictureSummary {
 
 /// Draws and writes, one file after the other, each whole or not at all. The frames of a turntable
 /// are numbered, picture-0001.png; beside them comes picture.mp4 where ffmpeg is on the PATH.
-/// @param progress `done` is the share of the frames.
+/// @param progress `done` is the share of all pictures.
 /// @throws Error as draw does; output: which file and why.
 PictureSummary write_pictures(const Subject& subject, const PictureOptions& options,
                               const PictureFiles& files, Device& device,
                               const Progress& progress = {});
+
+/// Looks at what figure17() would take, before any work is done; see check_picture.
+/// @throws Error usage, as check_picture; or a sheet that is too large for a PNG file.
+void check_figure17(const PictureOptions& picture, const DeviceInfo* device = nullptr);
 
 /// The plate of the paper's Figure 17: thin, fat and the previous method, in Phong shading and in
 /// watercolour. Each row sets the style, over which what else is in `options` wins, and the method;

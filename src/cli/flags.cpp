@@ -33,12 +33,6 @@ std::string_view metavar(const OptionRow& row) {
   return std::visit([](auto member) { return metavar_of(Options{}.*member); }, row.member);
 }
 
-std::string spelling(const OptionRow& row) {
-  const auto* flag = std::get_if<bool Options::*>(&row.member);
-  const bool on = flag != nullptr && Options{}.**flag;
-  return (on ? "--no-" : "--") + std::string(row.name);
-}
-
 Flag option_flag(const OptionRow& row) {
   return {.spelling = spelling(row),
           .value = metavar(row),
@@ -67,6 +61,12 @@ void set_values(Arguments& arguments, const OptionRow& row, const std::string& t
 }
 
 }  // namespace
+
+std::string spelling(const OptionRow& row) {
+  const auto* flag = std::get_if<bool Options::*>(&row.member);
+  const bool on = flag != nullptr && Options{}.**flag;
+  return (on ? "--no-" : "--") + std::string(row.name);
+}
 
 std::vector<Flag> option_flags(std::string_view group) {
   std::vector<Flag> flags;

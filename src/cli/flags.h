@@ -26,6 +26,9 @@ struct Flag {
   std::function<void(Arguments&, const std::string& value)> set;
 };
 
+/// An option's flag: --no-snap of `snap`, which is on without it.
+std::string spelling(const OptionRow& row);
+
 /// The rows of option_table(), or of one group of them.
 std::vector<Flag> option_flags(std::string_view group = {});
 /// The same, several values at once where a sweep takes them.

@@ -9,30 +9,24 @@
 #include <utility>
 
 #include "cli/console.h"
+#include "cli/flags.h"
 #include "cli/signals.h"
 #include "cli/values.h"
 #include "cli/verb.h"
 #include "leafhull/error.h"
 #include "leafhull/output.h"
 #include "leafhull/tree.h"
+#include "text/file_name.h"
 
 namespace leafhull::cli {
 namespace {
 
 namespace fs = std::filesystem;
 
-std::string lower_extension(const fs::path& file) {
-  std::string extension = file.extension().string();
-  for (char& c : extension) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c + ('a' - 'A') : c);
-  return extension;
-}
-
 bool is_field(const Arguments& arguments) { return lower_extension(arguments.tree) == ".vdb"; }
 
-/// Whether a word that is no name was meant to be a file's.
-bool looks_like_file(const std::string& text) {
-  const fs::path file(text);
-  return file.has_extension() || file.has_parent_path() || fs::exists(file);
+Surfacing surfacing(const Arguments& arguments) {
+  return arguments.surfacing.value_or(Surfacing::direct);
 }
 
 /// A viewpoint by its name, else the camera in a file.
@@ -47,8 +41,7 @@ std::variant<Viewpoint, View> camera_of(const std::string& text) {
 WatercolourStyle style_of(const std::string& text, std::optional<double> detail) {
   const auto valid = watercolour_styles();
   if (text.empty()) return read_watercolour_style(std::string(valid.front()), detail);
-  const bool is_name = std::find(valid.begin(), valid.end(), text) != valid.end();
-  if (!is_name && !looks_like_file(text)) choice("--watercolour-style", text, valid);
+  if (!looks_like_file(text)) choice("--watercolour-style", text, valid);
   return read_watercolour_style(text, detail);
 }
 
@@ -56,7 +49,7 @@ WatercolourStyle style_of(const std::string& text, std::optional<double> detail)
   throw Error(ErrorCode::usage, what, remedy);
 }
 
-void check_figure17(const Arguments& arguments) {
+void check_figure17_flags(const Arguments& arguments) {
   const std::vector<fs::path>& files = arguments.pictures.files;
   if (arguments.pictures.frames > 0) {
     refuse("--figure17 and --turntable contradict each other", "Give one of the two.");
@@ -74,26 +67,44 @@ void check_figure17(const Arguments& arguments) {
   }
 }
 
+void check_size(const Arguments& arguments, const PictureOptions& drawing,
+                const DeviceInfo* device = nullptr) {
+  if (arguments.figure17) {
+    check_figure17(drawing, device);
+  } else {
+    check_picture(drawing, device);
+  }
+}
+
 /// Options that were typed but change nothing.
 std::vector<std::string> without_effect(const Arguments& arguments, bool is_tree) {
   std::vector<std::string> warnings;
-  const auto warn = [&](std::string_view option, const std::string& why) {
-    warnings.push_back("--" + std::string(option) + " has no effect " + why);
+  const auto warn = [&](const std::string& option, const std::string& why) {
+    warnings.push_back(option + " has no effect " + why);
   };
   const Look look = arguments.drawing.look;
   if (look != Look::watercolour && !arguments.figure17) {
     const std::string why = "with --look " + std::string(name(look));
-    if (!arguments.watercolour_style.empty()) warn("watercolour-style", why);
-    if (arguments.detail) warn("detail", why);
+    if (!arguments.watercolour_style.empty()) warn("--watercolour-style", why);
+    if (arguments.detail) warn("--detail", why);
   } else if (!is_tree && arguments.detail) {
-    warn("detail", "where there are no leaves");
+    warn("--detail", "where there are no leaves");
   }
-  for (const std::string_view option : arguments.given) {
-    const bool of_rows = option == "style" || option == "method";
-    if (arguments.figure17 && of_rows) warn(option, "on --figure17, whose rows set it");
-    if (is_tree) continue;
-    if (!is_field(arguments)) warn(option, "on a shape that is drawn as it is");
-    if (is_field(arguments) && option != "threshold") warn(option, "on a density from a file");
+  if (is_field(arguments) && arguments.is_shape) warn("--as", "on a density from a file");
+  const bool is_meshed = surfacing(arguments) == Surfacing::mesh;
+  for (const OptionRow& row : option_table()) {
+    if (!arguments.given.contains(row.name)) continue;
+    const std::string option = spelling(row);
+    const bool of_rows = row.name == "style" || row.name == "method";
+    const bool of_mesh = row.name == "snap" || row.name == "mesher" || row.name == "adaptivity";
+    if (is_tree) {
+      if (of_rows && arguments.figure17) warn(option, "on --figure17, whose rows set it");
+      if (of_mesh && !is_meshed) warn(option, "without --surface mesh");
+    } else if (!is_field(arguments)) {
+      warn(option, "on a shape that is drawn as it is");
+    } else if (row.name != "threshold") {
+      warn(option, "on a density from a file");
+    }
   }
   return warnings;
 }
@@ -102,12 +113,12 @@ std::vector<std::string> without_effect(const Arguments& arguments, bool is_tree
 /// style's.
 PictureOptions checked(const Arguments& arguments) {
   (void)resolve(arguments.options);
-  if (arguments.figure17) check_figure17(arguments);
+  if (arguments.figure17) check_figure17_flags(arguments);
   check_pictures(arguments.pictures, arguments.tree);
   PictureOptions drawing = arguments.drawing;
   drawing.camera = camera_of(arguments.camera);
   drawing.style = style_of(arguments.watercolour_style, arguments.detail);
-  check_picture(drawing);
+  check_size(arguments, drawing);
   return drawing;
 }
 
@@ -125,7 +136,8 @@ class Run {
       warn(without_effect(arguments_, false));
       Device& device = open();
       const std::optional<double> threshold = arguments_.options.threshold;
-      write(field_subject(arguments_.tree, threshold, surfacing(), device, progress()), device);
+      write(field_subject(arguments_.tree, threshold, surfacing(arguments_), device, progress()),
+            device);
       return;
     }
     console_.progress("read", 0);
@@ -141,8 +153,6 @@ class Run {
   }
 
  private:
-  Surfacing surfacing() const { return arguments_.surfacing.value_or(Surfacing::direct); }
-
   Progress progress() {
     return [this](std::string_view stage, double done) { console_.progress(stage, done); };
   }
@@ -153,7 +163,7 @@ class Run {
 
   Device& open() {
     device_.emplace(opening_.get());
-    check_picture(drawing_, &device_->info());
+    check_size(arguments_, drawing_, &device_->info());
     console_.detail("device      " + device_->info().name);
     return *device_;
   }
@@ -185,7 +195,7 @@ class Run {
       return;
     }
     const Subject subject =
-        tree_subject(model, leaves, arguments_.options, surfacing(), device, progress());
+        tree_subject(model, leaves, arguments_.options, surfacing(arguments_), device, progress());
     warn(subject.report().warnings);
     write(subject, device);
   }
@@ -193,8 +203,8 @@ class Run {
   void write_figure17(const std::shared_ptr<const TreeModel>& model, const LeafSet& leaves,
                       Device& device) {
     const fs::path& file = arguments_.pictures.files.front();
-    const Picture plate =
-        figure17(model, leaves, arguments_.options, surfacing(), drawing_, device, progress());
+    const Picture plate = figure17(model, leaves, arguments_.options, surfacing(arguments_),
+                                   drawing_, device, progress());
     const std::vector<std::uint8_t> png = encode_png(plate);
     write_file(file, {reinterpret_cast<const char*>(png.data()), png.size()});
     console_.say("leafhull: Figure 17 of " + arguments_.tree.filename().string() + " in " +
@@ -214,7 +224,8 @@ class Run {
           if (frames == 0) {
             console_.progress(stage, done);
           } else {
-            console_.progress(stage, static_cast<std::size_t>(std::lround(done * frames)),
+            // A frame counts once it is drawn; its share is not exact.
+            console_.progress(stage, static_cast<std::size_t>(std::floor(done * frames + 1e-6)),
                               static_cast<std::size_t>(frames));
           }
         });

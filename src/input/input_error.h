@@ -4,6 +4,8 @@
 #include <string>
 #include <string_view>
 
+#include "text/text.h"
+
 namespace leafhull {
 
 /// What helps where a file contradicts itself.
@@ -21,9 +23,6 @@ inline constexpr std::string_view kNotAllFinite =
 /// @throws Error input, always: "file: place: what", the place left out where it is empty.
 [[noreturn]] void input_error(std::string_view file, std::string_view place, std::string_view what,
                               std::string_view remedy = kExportAgain);
-
-/// Text out of a file, fit for a message of one line: control characters replaced, long text cut.
-std::string printable(std::string_view text, std::size_t longest = 80);
 
 /// `printable` in quotes.
 std::string in_quotes(std::string_view text);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -12,6 +11,7 @@
 #include "input/gltf_nodes.h"
 #include "input/input_error.h"
 #include "leafhull/render.h"
+#include "text/file_name.h"
 
 namespace leafhull {
 namespace {
@@ -118,10 +118,7 @@ View read_view(const std::filesystem::path& path) {
       input_error(path.string(), "", std::string("cannot be read: ") + error.what(), kGiveCamera);
     }
   }();
-  std::string extension = path.extension().string();
-  std::ranges::transform(extension, extension.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  const bool is_gltf = extension == ".gltf" || text_of(bytes).starts_with("glTF");
+  const bool is_gltf = lower_extension(path) == ".gltf" || text_of(bytes).starts_with("glTF");
   return is_gltf ? read_node(bytes, path) : read_json(text_of(bytes), path.string());
 }
 

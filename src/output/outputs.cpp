@@ -18,6 +18,7 @@
 #include "output/transaction.h"
 #include "output/writers.h"
 #include "surface/volume.h"
+#include "text/file_name.h"
 
 namespace leafhull {
 namespace {
@@ -46,14 +47,6 @@ constexpr std::array<ShapeFormat, 6> kShapeFormats{{{".glb", write_mesh<write_gl
                                                     {".ply", write_mesh<write_ply>},
                                                     {".stl", write_mesh<write_stl>},
                                                     {".vdb", write_field}}};
-
-std::string lower_extension(const fs::path& file) {
-  std::string extension = file.extension().string();
-  for (char& character : extension) {
-    if (character >= 'A' && character <= 'Z') character += 'a' - 'A';
-  }
-  return extension;
-}
 
 const ShapeFormat& format_of(const fs::path& file) {
   if (file == kStandardOutput) {

@@ -21,6 +21,9 @@ namespace {
 constexpr float kMargin = 0.06f;
 constexpr double kTurn = 360;
 
+/// Of the time that a picture takes, about.
+double share_of_rays(Look look) { return look == Look::watercolour ? 0.5 : 1; }
+
 render::Viewpoint viewpoint(Viewpoint named) {
   constexpr render::Viewpoint kViewpoints[] = {render::kFront, render::kThreeQuarter, render::kTop};
   return kViewpoints[static_cast<std::size_t>(named)];
@@ -104,17 +107,26 @@ Picture Artist::shade(const Subject::Parts& parts, const render::Buffers& buffer
   return render::shade_phong(buffers);
 }
 
-Rendering Artist::draw(const Subject& subject, const PictureOptions& options) {
+Rendering Artist::draw(const Subject& subject, const PictureOptions& options,
+                       const Progress& progress) {
   const ThreadLimit limit(device_);
   const Progress untold;
   Stopwatch watch(untold);
   const Subject::Parts& parts = subject.parts();
   Rendering rendering;
-  watch.start("rays");
+  const double rays = share_of_rays(options.look);
+  const auto start = [&](std::string_view stage, double done) {
+    watch.start(stage);
+    if (progress) progress(stage, done);
+  };
+  start("rays", 0);
   const render::Camera camera = camera_of(parts, options);
-  const auto buffers = std::make_shared<const render::Buffers>(render::draw_buffers(
-      parts.targets, parts.surroundings(), camera, options.width, options.height));
-  watch.start("paint");
+  const auto buffers = std::make_shared<const render::Buffers>(
+      render::draw_buffers(parts.targets, parts.surroundings(), camera, options.width,
+                           options.height, {}, [&](double done) {
+                             if (progress) progress("rays", rays * done);
+                           }));
+  start("paint", rays);
   rendering.picture = shade(parts, *buffers, camera, options);
   rendering.blank = std::ranges::all_of(
       buffers->object, [](render::Object object) { return object == render::Object::paper; });
@@ -124,9 +136,10 @@ Rendering Artist::draw(const Subject& subject, const PictureOptions& options) {
   return rendering;
 }
 
-Rendering draw(const Subject& subject, const PictureOptions& options, Device& device) {
+Rendering draw(const Subject& subject, const PictureOptions& options, Device& device,
+               const Progress& progress) {
   check_picture(options, &device.info());
-  return Artist(device).draw(subject, options);
+  return Artist(device).draw(subject, options, progress);
 }
 
 std::vector<std::uint8_t> encode_exr(const Rendering& rendering) {

@@ -16,8 +16,9 @@ class Artist {
   /// Must outlive it.
   explicit Artist(Device& device) : device_(device) {}
 
-  /// As draw(), of options that are checked.
-  Rendering draw(const Subject& subject, const PictureOptions& options);
+  /// As leafhull::draw, of options that are checked.
+  Rendering draw(const Subject& subject, const PictureOptions& options,
+                 const Progress& progress = {});
 
  private:
   Picture shade(const Subject::Parts& parts, const render::Buffers& buffers,

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "picture/check_picture.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <string>
 
 #include "leafhull/error.h"
-#include "leafhull/render.h"
 #include "pipeline/memory.h"
 
 namespace leafhull {
@@ -15,13 +16,9 @@ namespace {
 // what edges take; on the device 150 for the planes of a watercolour.
 constexpr double kHostBytes = 160, kPaintBytes = 160;
 
-std::string size_text(int width, int height) {
-  return std::to_string(width) + "x" + std::to_string(height);
-}
-
 /// @throws Error usage where `bytes` for each pixel are more than there are.
-void check_memory(const PictureOptions& options, double bytes, double available,
-                  const std::string& of) {
+void check_available(const PictureOptions& options, double bytes, double available,
+                     const std::string& of) {
   const double needed = bytes * options.width * options.height;
   if (needed <= available) return;
   constexpr double kGiB = 1 << 30;
@@ -39,7 +36,11 @@ void check_memory(const PictureOptions& options, double bytes, double available,
 
 }  // namespace
 
-void check_picture(const PictureOptions& options, const DeviceInfo* device) {
+std::string size_text(int width, int height) {
+  return std::to_string(width) + "x" + std::to_string(height);
+}
+
+void check_sides(const PictureOptions& options) {
   const int least = std::min(options.width, options.height);
   const int most = std::max(options.width, options.height);
   if (least < 1 || most > kLargestSide) {
@@ -48,13 +49,21 @@ void check_picture(const PictureOptions& options, const DeviceInfo* device) {
         "a picture of " + size_text(options.width, options.height) + " pixels is out of range",
         "Give 1 to " + std::to_string(kLargestSide) + " pixels along each side.");
   }
+}
+
+void check_memory(const PictureOptions& options, const DeviceInfo* device, double kept) {
   const bool paints = options.look == Look::watercolour && device;
   const bool shared = device && device->type == "CPU";
   const auto host = static_cast<double>(available_memory());
-  check_memory(options, kHostBytes + (paints && shared ? kPaintBytes : 0), host, "");
+  check_available(options, kept + kHostBytes + (paints && shared ? kPaintBytes : 0), host, "");
   if (!paints || shared) return;
-  check_memory(options, kPaintBytes, static_cast<double>(device->memory_bytes),
-               " of the device's memory");
+  check_available(options, kPaintBytes, static_cast<double>(device->memory_bytes),
+                  " of the device's memory");
+}
+
+void check_picture(const PictureOptions& options, const DeviceInfo* device) {
+  check_sides(options);
+  check_memory(options, device, 0);
 }
 
 }  // namespace leafhull

@@ -4,13 +4,17 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <limits>
+#include <ranges>
 #include <string>
 #include <utility>
 
 #include "leafhull/error.h"
 #include "leafhull/render.h"
 #include "picture/artist.h"
+#include "picture/check_picture.h"
 #include "picture/parts.h"
+#include "render/contact_sheet.h"
 
 namespace leafhull {
 namespace {
@@ -42,9 +46,11 @@ std::string parameters(const Report& report) {
          ", λ_R = " + decimal(*options.flatness) + ")";
 }
 
+int gap_beside(int width) { return width / 32; }
+
 /// Two pictures of one size in one, white between them.
 Picture side_by_side(const Picture& left, const Picture& right) {
-  const int gap = left.width / 32;
+  const int gap = gap_beside(left.width);
   Picture both{left.width + gap + right.width, left.height, {}};
   both.rgb.assign(std::size_t{3} * both.width * both.height, 255);
   const auto paste = [&](const Picture& picture, int column) {
@@ -57,6 +63,19 @@ Picture side_by_side(const Picture& left, const Picture& right) {
   paste(left, 0);
   paste(right, left.width + gap);
   return both;
+}
+
+/// Whether a plate of pictures of this size is a PNG file: its bytes with one more for each line
+/// are counted in an int.
+bool fits_a_file(int width, int height) {
+  std::vector<LabelledPicture> rows;
+  for (const Row& row : kRows) {
+    const Picture blank{2 * width + gap_beside(width), height, {}};
+    rows.push_back({blank, {row.caption, ""}});
+  }
+  const auto [across, down] = render::contact_sheet_size("", rows, 1);
+  const std::int64_t line = 3 * std::int64_t{across} + 1;
+  return line * down <= std::numeric_limits<int>::max();
 }
 
 Options options_of(const Row& row, Options options) {
@@ -82,27 +101,55 @@ Frame frame_of_rows(const TreeModel& tree, const LeafSet& leaves, const Options&
 
 }  // namespace
 
+void check_figure17(const PictureOptions& picture, const DeviceInfo* device) {
+  check_sides(picture);
+  const auto [width, height] = std::pair(picture.width, picture.height);
+  if (!fits_a_file(width, height)) {
+    const auto scaled = [](int side, int most) {
+      return std::max(1, static_cast<int>(std::int64_t{side} * most / kLargestSide));
+    };
+    const auto fits = [&](int most) {
+      return fits_a_file(scaled(width, most), scaled(height, most));
+    };
+    const int most = *std::ranges::partition_point(std::views::iota(1, kLargestSide), fits) - 1;
+    const std::string largest = size_text(scaled(width, most), scaled(height, most));
+    throw Error(ErrorCode::usage,
+                "the sheet of six pictures of " + size_text(width, height) +
+                    " pixels is too large for a PNG file",
+                "The largest of this shape that fits is " + largest + " (--size " + largest + ").");
+  }
+  constexpr double kPlateBytes = 3 * 6 * 2;  // six pictures, and the sheet
+  PictureOptions painted = picture;
+  painted.look = Look::watercolour;
+  check_memory(painted, device, kPlateBytes);
+}
+
 Picture figure17(const std::shared_ptr<const TreeModel>& tree, const LeafSet& leaves,
                  const Options& options, Surfacing surfacing, const PictureOptions& asked,
                  Device& device, const Progress& progress) {
-  check_picture(asked, &device.info());
+  check_figure17(asked, &device.info());
   const Frame frame = frame_of_rows(*tree, leaves, options);
   PictureOptions picture = asked;
   Artist artist(device);
   std::vector<LabelledPicture> rows;
   for (const Row& row : kRows) {
-    const auto tell = [&](std::string_view stage) {
-      const double done = static_cast<double>(rows.size()) / kRows.size();
+    const auto tell = [&](std::string_view stage, double share) {
+      const double done = (static_cast<double>(rows.size()) + share) / kRows.size();
       if (progress) progress(std::string(name(row.style)) + ": " + std::string(stage), done);
+    };
+    // A row is a surface and two pictures of it.
+    const auto part = [&](int before) {
+      return [&tell, before](std::string_view stage, double share) {
+        tell(stage, (before + share) / 3);
+      };
     };
     const Subject subject = tree_subject(
         tree, leaves, options_of(row, options), surfacing, device,
-        [&](std::string_view stage, double) { tell(stage); }, frame);
-    tell("draw");
+        [&](std::string_view stage, double) { tell(stage, 0); }, frame);
     picture.look = Look::phong;
-    const Picture phong = artist.draw(subject, picture).picture;
+    const Picture phong = artist.draw(subject, picture, part(1)).picture;
     picture.look = Look::watercolour;
-    const Picture watercolour = artist.draw(subject, picture).picture;
+    const Picture watercolour = artist.draw(subject, picture, part(2)).picture;
     rows.push_back({side_by_side(phong, watercolour), {row.caption, parameters(subject.report())}});
   }
   return contact_sheet("", rows, 1);

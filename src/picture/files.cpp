@@ -8,6 +8,7 @@
 #include "leafhull/error.h"
 #include "output/destination.h"
 #include "picture/film.h"
+#include "text/file_name.h"
 
 namespace leafhull {
 namespace {
@@ -41,14 +42,6 @@ void add_film(const PictureFiles& files, FilePlan& plan) {
 }
 
 }  // namespace
-
-std::string lower_extension(const fs::path& file) {
-  std::string extension = file.extension().string();
-  for (char& c : extension) {
-    if (c >= 'A' && c <= 'Z') c += 'a' - 'A';
-  }
-  return extension;
-}
 
 fs::path numbered(const fs::path& file, int number) {
   std::string digits = std::to_string(number);

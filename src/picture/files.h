@@ -17,9 +17,6 @@ struct FilePlan {
   bool film_is_missing = false;     ///< it would come with them, but there is no ffmpeg
 };
 
-/// ".png" of FILE.PNG.
-std::string lower_extension(const std::filesystem::path& file);
-
 /// @throws Error usage, as check_pictures.
 FilePlan plan_files(const PictureFiles& files);
 

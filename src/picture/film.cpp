@@ -18,7 +18,7 @@
 #include "output/destination.h"
 #include "output/transaction.h"
 #include "output/write_error.h"
-#include "picture/files.h"
+#include "text/file_name.h"
 
 namespace leafhull {
 namespace {

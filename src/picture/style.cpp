@@ -10,6 +10,7 @@
 
 #include "leafhull/error.h"
 #include "leafhull/render.h"
+#include "text/file_name.h"
 
 namespace leafhull {
 namespace {
@@ -41,11 +42,10 @@ std::string watercolour_style_table() { return watercolour::style_table(); }
 WatercolourStyle read_watercolour_style(const std::string& name_or_file,
                                         std::optional<double> detail) {
   const auto shipped = watercolour::style_names();
-  const fs::path file(name_or_file);
-  const bool is_file = std::ranges::find(shipped, name_or_file) == shipped.end() &&
-                       (file.has_extension() || file.has_parent_path() || fs::exists(file));
-  watercolour::Style style = is_file ? watercolour::parse_style(read_text(file), file.string())
-                                     : watercolour::shipped_style(name_or_file);
+  const bool is_name = std::ranges::find(shipped, name_or_file) != shipped.end();
+  watercolour::Style style = !is_name && looks_like_file(name_or_file)
+                                 ? watercolour::parse_style(read_text(name_or_file), name_or_file)
+                                 : watercolour::shipped_style(name_or_file);
   if (detail) style.detail = static_cast<float>(*detail);
   return std::make_shared<const watercolour::Style>(style);
 }

@@ -121,14 +121,15 @@ PictureSummary write_pictures(const Subject& subject, const PictureOptions& aske
   options.turntable = files.frames > 0;
   const Progress untold;
   for (int i = 0; i < pictures; ++i) {
-    const double done = static_cast<double>(i) / pictures;
-    options.turn = done;
-    if (progress) progress("draw", done);
-    const Rendering rendering = artist.draw(subject, options);
+    const auto tell = [&](std::string_view stage, double share) {
+      if (progress) progress(stage, (i + share) / pictures);
+    };
+    options.turn = static_cast<double>(i) / pictures;
+    const Rendering rendering = artist.draw(subject, options, tell);
     summary.blank += rendering.blank;
     add_times(summary.seconds, rendering.seconds);
 
-    if (progress) progress("write", done);
+    tell("write", 1);
     Stopwatch watch(untold);
     watch.start("write");
     const auto name = [&](const fs::path& file) {

@@ -38,6 +38,7 @@ DirectSurface::DirectSurface(const LeafSet& leaves, const Options& options, Devi
   d.progress = progress;
   Stages& stages = d.stages.emplace(leaves, device, d.watch, Stages::Lists::keep);
   d.report.options = resolve(options);
+  d.report.options.adaptivity = 0;  // it is of meshes, and widens what is sampled
   stages.prepare(d.report);
   const Field& field = stages.sample(d.report, {d.report.threshold});
   if (!reaches(field)) stages.refuse_empty(field, d.report);

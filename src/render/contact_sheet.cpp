@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "render/contact_sheet.h"
+
 #include <algorithm>
 #include <cmath>
 
-#include "leafhull/picture.h"
 #include "render/type.h"
 
 namespace leafhull {
@@ -76,6 +77,13 @@ void paste(const Picture& picture, int left, int top, Picture& sheet) {
 }
 
 }  // namespace
+
+SheetSize contact_sheet_size(std::string_view title, std::span<const LabelledPicture> pictures,
+                             int columns) {
+  const Layout layout(title, pictures, columns);
+  return {layout.width(), layout.height()};
+}
+
 }  // namespace render
 
 Picture contact_sheet(std::string_view title, std::span<const LabelledPicture> pictures,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <span>
 
 #include "render/buffers.h"
@@ -16,7 +17,9 @@ struct Effort {
 
 /// What each pixel of a picture of `targets`, the nearest first in front, sees, and the light of
 /// the key light and of the sky there.
+/// @param tell is called from this thread with the share that is done, rising to 1.
 Buffers draw_buffers(std::span<const Target* const> targets, const Surroundings& surroundings,
-                     const Camera& camera, int width, int height, Effort effort = {});
+                     const Camera& camera, int width, int height, Effort effort = {},
+                     const std::function<void(double)>& tell = {});
 
 }  // namespace leafhull::render

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <stb/stb_image_write.h>
 
+#include <limits>
+
 #include "leafhull/error.h"
 #include "leafhull/picture.h"
 
@@ -13,9 +15,20 @@ void append(void* file, void* bytes, int count) {
   whole.insert(whole.end(), first, first + count);
 }
 
+/// stb counts bytes in an int.
+void check_size(const Picture& picture, int more_per_row, const char* format) {
+  const std::int64_t row = 3 * std::int64_t{picture.width} + more_per_row;
+  if (row * picture.height <= std::numeric_limits<int>::max()) return;
+  throw Error(ErrorCode::usage,
+              "a picture of " + std::to_string(picture.width) + "x" +
+                  std::to_string(picture.height) + " pixels is too large for a " + format + " file",
+              "Ask for a smaller picture.");
+}
+
 }  // namespace
 
 std::vector<std::uint8_t> encode_png(const Picture& picture) {
+  check_size(picture, 1, "PNG");  // a row begins with its filter
   std::vector<std::uint8_t> file;
   if (!stbi_write_png_to_func(append, &file, picture.width, picture.height, 3, picture.rgb.data(),
                               3 * picture.width)) {
@@ -25,6 +38,7 @@ std::vector<std::uint8_t> encode_png(const Picture& picture) {
 }
 
 std::vector<std::uint8_t> encode_jpeg(const Picture& picture, int quality) {
+  check_size(picture, 0, "JPEG");
   std::vector<std::uint8_t> file;
   if (!stbi_write_jpg_to_func(append, &file, picture.width, picture.height, 3, picture.rgb.data(),
                               quality)) {

@@ -62,6 +62,15 @@ void append_utf8(char32_t character, std::string& text) {
   add(0x80 | (character & 0x3F));
 }
 
+std::string printable(std::string_view text, std::size_t longest) {
+  const bool cut = text.size() > longest;
+  std::string line(text.substr(0, longest));
+  for (char& c : line) {
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = ' ';
+  }
+  return cut ? line + "..." : line;
+}
+
 std::vector<TextRun> split_subscripts(std::string_view label) {
   const std::u32string text = decode_utf8(label);
   std::vector<TextRun> runs{{}};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,6 +18,9 @@ struct TextRun {
 std::u32string decode_utf8(std::string_view text);
 
 void append_utf8(char32_t character, std::string& text);
+
+/// Text out of a file, fit for a message of one line: control characters replaced, long text cut.
+std::string printable(std::string_view text, std::size_t longest = 80);
 
 /// The parts of a label. An underscore after a word of one letter makes the rest of the word its
 /// subscript: R_max, but not birch_2.

@@ -201,7 +201,7 @@ Picture Painter::paint(const render::Buffers& buffers, std::span<const Stroke> l
   if (width < 1 || height < 1) throw Error(ErrorCode::usage, "a picture has at least one pixel");
   const std::string what =
       "a watercolour of " + std::to_string(width) + "x" + std::to_string(height);
-  try {
+  return engine.run(what.c_str(), [&]() -> Picture {
     if (memory_of(width, height) > engine.info.memory_bytes ||
         Passes::plane_bytes(width, height) >
             engine.device.getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>()) {
@@ -212,13 +212,7 @@ Picture Painter::paint(const render::Buffers& buffers, std::span<const Stroke> l
     impl_->prepare(buffers, style);
     Painting painting(*impl_->passes, impl_->paper, buffers, style);
     return {width, height, painting.paint(leaves)};
-  } catch (const cl::Error& error) {
-    clFinish(engine.queue());  // nothing may still use the buffers
-    throw Error(ErrorCode::device,
-                what + " failed on '" + engine.info.name + "': " + error.what() + " returned " +
-                    std::to_string(error.err()),
-                "Try a smaller picture or another device (`leafhull devices`).");
-  }
+  });
 }
 
 }  // namespace leafhull::watercolour

@@ -85,13 +85,6 @@ struct Passes::Impl {
     return plane;
   }
 
-  template <class T>
-  cl::Buffer input(const std::vector<T>& values) {
-    const cl_mem_flags place = engine.shares_memory() ? CL_MEM_USE_HOST_PTR : CL_MEM_COPY_HOST_PTR;
-    return cl::Buffer(engine.context, CL_MEM_READ_ONLY | place, values.size() * sizeof(T),
-                      const_cast<T*>(values.data()));
-  }
-
   static const cl::Buffer& argument(const Plane& plane) { return plane->buffer; }
   template <class T>
   static const T& argument(const T& value) {
@@ -187,9 +180,10 @@ PaperPlanes Passes::paper(float period, int cells, std::uint32_t seed) {
 
 SeenPlanes Passes::see(const render::Buffers& buffers, float sky, float wrap) {
   Impl& d = *impl_;
-  const cl::Buffer object = d.input(buffers.object), normal = d.input(buffers.normal),
-                   position = d.input(buffers.position), depth = d.input(buffers.depth),
-                   key = d.input(buffers.key), open = d.input(buffers.open);
+  const cl::Buffer object = d.engine.input(buffers.object), normal = d.engine.input(buffers.normal),
+                   position = d.engine.input(buffers.position),
+                   depth = d.engine.input(buffers.depth), key = d.engine.input(buffers.key),
+                   open = d.engine.input(buffers.open);
   SeenPlanes out{d.plane(), d.plane(), d.plane(), d.plane(), d.plane(), d.plane()};
   const Vec3f l = buffers.to_light;
   d.launch("see", cl::NDRange(d.pitch, d.rows), cl::NDRange(kPadding, 1), d.width, d.height,

@@ -60,7 +60,7 @@ void each_dab(const Stroke& stroke, const Brush& brush, Take&& take) {
     take(Dab{stroke.centre, along, half, half_width, stroke.depth, stroke.leaf});
     return;
   }
-  const int count = std::min(kMostOfSpray, static_cast<int>(std::ceil(cards * cards)));
+  const int count = static_cast<int>(std::min<float>(kMostOfSpray, std::ceil(cards * cards)));
   for (int i = 0; i < count; ++i) {
     const std::uint32_t leaf = render::hash(stroke.leaf * kMostOfSpray + i);
     const float r = std::sqrt(unit(render::hash(leaf + 1)));

@@ -10,6 +10,7 @@
 #include <type_traits>
 
 #include "leafhull/error.h"
+#include "text/text.h"
 
 namespace leafhull {
 
@@ -30,13 +31,13 @@ struct Source {
   std::string file;
 
   [[noreturn]] void fail(const std::string& what, const std::string& remedy) const {
-    throw Error(ErrorCode::usage, file + ": " + what, remedy);
+    throw Error(ErrorCode::usage, printable(file, 1000) + ": " + printable(what, 300), remedy);
   }
 };
 
 std::string in_quotes(std::string_view name) {
   std::string text = "'";
-  return text.append(name).append("'");
+  return text.append(printable(name)).append("'");
 }
 
 std::string names() {
@@ -140,6 +141,10 @@ Json parse_json(std::string_view text, const Source& source) {
   Json json;
   try {
     json = Json::parse(text);
+  } catch (const Json::out_of_range& error) {
+    const std::string_view what = error.what();  // which ends with the number in quotes
+    source.fail("a number is too large: " + std::string(what.substr(what.find('\''))),
+                "Give a number in the range of its key.");
   } catch (const Json::exception& error) {
     source.fail(std::string("not JSON: ") + error.what(),
                 "Give a style file, such as those in styles/.");
@@ -268,7 +273,8 @@ std::span<const StyleKey> style_keys() {
       {"detail", "[0, 1]", "how many leaves are painted one by one", &Style::detail, 0, 1},
       {"leaf_size", "[0.1, 10]", "the size of their strokes, in leaves", &Style::leaf_size, 0.1f,
        10},
-      {"leaf_width", "[0, 0.1]", "the least half-length of a stroke", &Style::leaf_width, 0, 0.1f},
+      {"leaf_width", "[0.0001, 0.1]", "the least half-length of a stroke", &Style::leaf_width,
+       0.0001f, 0.1f},
   };
   return keys;
 }

@@ -134,6 +134,9 @@ class Cameras(Render):
             file = self.input("camera.json", camera)
             self.refuse(["camera.json", *words], "--camera", file, code=3)
         self.refuse(["perspective camera"], "--camera", self.tree, code=3)
+        far = self.camera(eye=[0, 0, 1e30], target=[0, 0, 0])
+        for flags in ((), MESH):
+            self.refuse(["camera", "too far"], "--camera", far, *flags)
 
 
 class Subjects(Render):
@@ -172,6 +175,8 @@ class Subjects(Render):
             self.assertTrue(any(is_green(pixel) for row in rows for pixel in row))
         result = self.render("--coverage", "0.5", *MESH, subject=self.field)
         self.assertIn("warning: --coverage has no effect", result.stderr)
+        result = self.render("--as", "tree", *MESH, subject=self.field)
+        self.assertIn("warning: --as has no effect", result.stderr)
 
     def test_a_density_that_cannot_be_drawn(self):
         self.refuse(["was sampled for T"], "--threshold", "50", subject=self.field)
@@ -186,6 +191,15 @@ class Subjects(Render):
             both = [(a != WHITE, b != WHITE) for p, q in zip(direct, mesh) for a, b in zip(p, q)]
             common = sum(a and b for a, b in both) / sum(a or b for a, b in both)
             self.assertGreater(common, 0.97, subject)
+
+    def test_options_of_meshes_do_not_count_without_one(self):
+        flags = ("--no-snap", "--mesher", "vdb", "--adaptivity", "0.5")
+        result = self.render(*flags)
+        for flag in ("--no-snap", "--mesher", "--adaptivity"):
+            warning = f"warning: {flag} has no effect without --surface mesh"
+            self.assertIn(warning, result.stderr)
+        self.assertEqual(self.picture.read_bytes(), self.bytes())
+        self.assertNotIn("no effect", self.render(*flags, *MESH).stderr)
 
     def test_an_empty_surface(self):
         for flags in ((), MESH):
@@ -225,6 +239,8 @@ class Watercolours(Render):
             (["own.json", "wetnes"], b'{"wetnes": 1}'),
             (["own.json", "bleeding"], b'{"bleeding": "much"}'),
             (["own.json", "shadow"], b'{"shadow": {"wetness": 99}}'),
+            (["own.json", "too large", "1e999"], b'{"sky": 1e999}'),
+            (["own.json", "no key 'a b'"], b'{"a\\nb": 1}'),
         ):
             self.refuse(words, style, self.input("own.json", text))
         self.refuse(["--detail '2'", "from 0 to 1"], "--detail", "2")
@@ -242,6 +258,9 @@ class Plate(Render):
     def test_other_options_win_over_the_rows(self):
         small = ("--figure17", "--size", "32x32", *MESH)
         self.assertNotEqual(self.bytes(*small, "--threshold", "60%"), self.bytes(*small))
+
+    def test_a_sheet_past_the_largest_file(self):
+        self.refuse(["sheet", "PNG", "--size"], "--figure17", "--size", "16384x16384")
 
     def test_contradictions(self):
         self.refuse(["--figure17", "--turntable"], "--figure17", "--turntable", "3")

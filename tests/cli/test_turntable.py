@@ -19,6 +19,15 @@ class Turntables(Render):
     def frames(self, count):
         return [f"picture-{i:04}.png" for i in range(1, count + 1)]
 
+    def instead_of_ffmpeg(self, script):
+        """The environment in which a shell script stands for it."""
+        programs = self.folder / "bin"
+        programs.mkdir()
+        program = programs / "ffmpeg"
+        program.write_text("#!/bin/sh\n" + script)
+        program.chmod(0o755)
+        return {"PATH": f"{programs}:{os.environ['PATH']}"}
+
     def test_frames(self):
         result = self.render("--turntable", "4", *MESH, env=NO_PROGRAMS)
         self.assertIn("no film: ffmpeg is not on the PATH", result.stderr)
@@ -71,12 +80,7 @@ class Turntables(Render):
 
     @WITH_FFMPEG
     def test_a_film_that_fails(self):
-        broken = self.folder / "bin"
-        broken.mkdir()
-        program = broken / "ffmpeg"
-        program.write_text("#!/bin/sh\necho broken codec >&2\nexit 1\n")
-        program.chmod(0o755)
-        env = {"PATH": f"{broken}:{os.environ['PATH']}"}
+        env = self.instead_of_ffmpeg("echo broken codec >&2\nexit 1\n")
         result = self.render("--turntable", "2", *MESH, env=env)
         self.assertIn("broken codec", result.stderr)
         self.assertEqual(self.written(), self.frames(2))
@@ -84,6 +88,19 @@ class Turntables(Render):
             (self.out / name).unlink()
         command = ("render", ASH, *SMALL, *MESH, "--turntable", "2", "-o", self.out / "turn.mp4")
         self.fail_with(5, ["turn.mp4", "broken codec"], *command, env=env)
+
+    @WITH_FFMPEG
+    def test_a_film_that_the_disk_does_not_hold(self):
+        film = self.out / "turn.mp4"
+        command = ("render", ASH, *SMALL, *MESH, "--turntable", "6", "-o", film)
+        self.succeed(*command)
+        limit = film.stat().st_size // 512 // 2
+        self.assertGreater(limit, 0)
+        film.unlink()
+        # A write past the limit fails, as on a full disk.
+        ffmpeg = shutil.which("ffmpeg")
+        env = self.instead_of_ffmpeg(f"trap '' XFSZ\nulimit -f {limit}\nexec '{ffmpeg}' \"$@\"\n")
+        self.fail_with(5, ["turn.mp4", "ffmpeg says", "File too large"], *command, env=env)
 
     def test_an_interrupt_leaves_whole_frames(self):
         flags = (*SMALL, *MESH, "--turntable", "5000", "-o", self.picture)

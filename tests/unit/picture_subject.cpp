@@ -4,12 +4,16 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "leafhull/error.h"
 #include "leafhull/render.h"
 #include "picture/artist.h"
 #include "picture/parts.h"
 #include "render/buffers.h"
+#include "temporary_folder.h"
 #include "watercolour/style.h"
 
 namespace leafhull::test {
@@ -60,6 +64,10 @@ TEST(ShapeFiles, AreKnownByTheirNames) {
   bare.materials.push_back({.name = "leaves"});
   bare.primitives.front().material = 0;
   EXPECT_FALSE(is_shape(bare));
+  bare.materials.front().name.clear();
+  EXPECT_TRUE(is_shape(bare)) << "a plain colour";
+  bare.materials.front().alpha_mode = AlphaMode::mask;
+  EXPECT_FALSE(is_shape(bare)) << "leaves cut out of cards";
   TreeModel both = *cube();
   both.primitives.push_back(cube("trunk")->primitives.front());
   both.instances.push_back({1, "node", kIdentity});
@@ -99,6 +107,29 @@ TEST(Views, GoRoundTheMiddleOfTheSubject) {
   EXPECT_NEAR(length(eye(0) - (kMiddle + Vec3d(0, 0, 3))), 0, 1e-5);
   EXPECT_NEAR(length(eye(0.25) - (kMiddle + Vec3d(3, 0, 0))), 0, 1e-5);
   EXPECT_NEAR(length(eye(0.5) - (kMiddle + Vec3d(0, 0, -3))), 0, 1e-5);
+}
+
+TEST(Drawing, TellsHowFarItIs) {
+  const Subject subject = shape_subject(cube());
+  std::vector<std::pair<std::string, double>> told;
+  const Progress progress = [&](std::string_view stage, double done) {
+    told.emplace_back(stage, done);
+  };
+  draw(subject, facing_the_cube(640, 640), device(), progress);
+  const auto by_share = [](const auto& a, const auto& b) { return a.second < b.second; };
+  EXPECT_TRUE(std::is_sorted(told.begin(), told.end(), by_share));
+  EXPECT_EQ(told.front(), std::pair(std::string("rays"), 0.0));
+  EXPECT_EQ(told.back().first, "paint");
+  const auto within = std::count_if(told.begin(), told.end(), [](const auto& step) {
+    return step.first == "rays" && step.second > 0 && step.second < 0.8;
+  });
+  EXPECT_GE(within, 5) << "a step for each band";
+
+  const TemporaryFolder folder;
+  told.clear();
+  write_pictures(subject, facing_the_cube(16, 16), {{folder / "a.exr"}, 3}, device(), progress);
+  EXPECT_TRUE(std::is_sorted(told.begin(), told.end(), by_share));
+  EXPECT_EQ(told.back(), std::pair(std::string("write"), 1.0));
 }
 
 TEST(Strokes, AreLeavesInPixels) {
@@ -148,8 +179,10 @@ TEST_F(Trees, HaveACardForEveryLeaf) {
   const Subject::Parts& parts = subject.parts();
   ASSERT_EQ(parts.leaves.size(), leaves().leaf_count);
   const LeafVertex& vertex = leaves().vertices.front();
+  const std::vector<std::uint32_t>& order = leaves().order_in_file;
+  const std::uint32_t in_file = order.empty() ? vertex.leaf : order[vertex.leaf];
   const auto card = std::find_if(parts.leaves.begin(), parts.leaves.end(),
-                                 [&](const LeafCard& leaf) { return leaf.leaf == vertex.leaf; });
+                                 [&](const LeafCard& leaf) { return leaf.leaf == in_file; });
   ASSERT_NE(card, parts.leaves.end());
   const auto scale = static_cast<float>(parts.placement.scale);
   EXPECT_NEAR(length(card->half_major), vertex.radius_major * scale, 1e-6f);
@@ -225,6 +258,31 @@ TEST(PictureSizes, AreChecked) {
   EXPECT_NO_THROW(check_picture(options, &gpu)) << "the size that the remedy names";
   options = {.width = 2000, .height = 1000};
   EXPECT_NO_THROW(check_picture(options, &gpu)) << "shading takes none of the device's memory";
+}
+
+TEST(PictureSizes, TheSheetOfFigure17MustFitAFile) {
+  const auto refusal = [](int width, int height) {
+    PictureOptions options;
+    options.width = width, options.height = height;
+    try {
+      check_figure17(options);
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::usage);
+      return std::string(error.what()) + " " + error.remedy();
+    }
+    return std::string();
+  };
+  EXPECT_EQ(refusal(64, 64), "");
+  EXPECT_NE(refusal(0, 64).find("out of range"), std::string::npos);
+  const std::string message = refusal(16384, 16384);
+  EXPECT_NE(message.find("too large for a PNG file"), std::string::npos) << message;
+  int width = 0, height = 0;
+  ASSERT_EQ(std::sscanf(message.c_str() + message.find("--size"), "--size %dx%d", &width, &height),
+            2);
+  EXPECT_EQ(width, height);
+  EXPECT_GT(width, 10000);
+  EXPECT_EQ(refusal(width, height).find("PNG"), std::string::npos);
+  EXPECT_NE(refusal(width + 1, height + 1).find("PNG"), std::string::npos);
 }
 
 TEST(WatercolourStyles, TakeTheirDetailFromTheCall) {

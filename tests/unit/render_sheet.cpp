@@ -4,7 +4,9 @@
 
 #include <memory>
 
+#include "leafhull/error.h"
 #include "leafhull/picture.h"
+#include "render/contact_sheet.h"
 #include "render/type.h"
 #include "render_pixels.h"
 
@@ -21,6 +23,20 @@ std::vector<LabelledPicture> entries(int count, std::vector<std::string> lines) 
 }
 
 bool is_blank(const Rectangle& ink) { return ink.left >= ink.right; }
+
+TEST(RenderSheet, SizesAreKnownBefore) {
+  const std::vector<LabelledPicture> pictures = entries(3, {"a label", "of lines"});
+  const Picture sheet = contact_sheet("title", pictures, 2);
+  const render::SheetSize size = render::contact_sheet_size("title", pictures, 2);
+  EXPECT_EQ(size.width, sheet.width);
+  EXPECT_EQ(size.height, sheet.height);
+}
+
+TEST(RenderSheet, APictureTooLargeForItsFileIsRefused) {
+  const Picture large{32768, 32768, {}};  // whose pixels are not looked at
+  EXPECT_THROW(encode_png(large), Error);
+  EXPECT_THROW(encode_jpeg(large, 85), Error);
+}
 
 TEST(RenderSheet, PicturesStandInRows) {
   const Picture one = contact_sheet("", entries(1, {}), 1);

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "text/file_name.h"
+
 namespace leafhull {
 namespace {
 
@@ -19,6 +21,22 @@ std::string marked(std::string_view label) {
 TEST(Text, DecodesEveryLength) {
   EXPECT_EQ(decode_utf8("aλ€🌳"), U"aλ€🌳");
   EXPECT_EQ(decode_utf8(""), U"");
+}
+
+TEST(Text, OfAFileFitsALine) {
+  EXPECT_EQ(printable("a\nb\x1B\x7F\tλ"), "a b   λ");
+  EXPECT_EQ(printable("abc", 3), "abc");
+  EXPECT_EQ(printable("abcd", 3), "abc...");
+}
+
+TEST(FileNames, HaveExtensionsInAnyCase) {
+  EXPECT_EQ(lower_extension("a.d/FILE.tar.PNG"), ".png");
+  EXPECT_EQ(lower_extension("a.d/file"), "");
+}
+
+TEST(FileNames, LookLikeFiles) {
+  for (const char* file : {"a.json", "a/b", "./a", "/"}) EXPECT_TRUE(looks_like_file(file)) << file;
+  for (const char* name : {"clasic", ""}) EXPECT_FALSE(looks_like_file(name)) << name;
 }
 
 TEST(Text, EncodesWhatItDecodes) {

@@ -78,6 +78,22 @@ TEST(Strokes, StrokesKeepToTheBrush) {
   EXPECT_EQ(area({0, 0}, {0, 0}, brush), 0);
 }
 
+TEST(Strokes, ALeafAtTheEyeIsASprayOfBoundedLength) {
+  const Scene scene;
+  const auto area = [&](float half, float size) {
+    const Stroke stroke{{32, 32}, {half, 0}, {0, half}, 2, 3};
+    const Brush brush{.size = size, .least = 1, .most = 3, .tolerance = 0.1f};
+    const std::vector<float> v = break_edges({{stroke}}, scene.room(), brush);
+    return std::count_if(v.begin(), v.end(), [](float x) { return x != 0; });
+  };
+  // The dabs that would cover it: 2e1, 2e13, more than floats count.
+  const auto few = area(20, 1);
+  EXPECT_GT(few, 100);
+  EXPECT_EQ(area(20, 1e6f), few);
+  EXPECT_EQ(area(20, 1e30f), few);
+  EXPECT_EQ(area(1e30f, 1), 0) << "each beside the picture";
+}
+
 TEST(Strokes, SingleLeavesStandAtTheEdgeAndInTheLight) {
   std::vector<Stroke> leaves;
   for (std::uint32_t i = 0; i < 400; ++i) leaves.push_back(leaf_at(32, 32, i));

@@ -68,6 +68,20 @@ TEST(Style, AFaultNamesFileAndKey) {
   }
 }
 
+TEST(Style, ANumberThatNoDoubleHoldsIsCalledSo) {
+  EXPECT_EQ(fault(R"({"sky": 1e999})"),
+            "my.json: a number is too large: '1e999' | Give a number in the range of its key.");
+}
+
+TEST(Style, AFaultIsOneLine) {
+  const std::string message = fault(R"({"a\nb\u007f": 1})");
+  EXPECT_NE(message.find("there is no key 'a b '"), std::string::npos) << message;
+  const std::string in_wash = fault(R"({"tone": {"a\nb": 1}})");
+  EXPECT_NE(in_wash.find("there is no key 'tone.a b'"), std::string::npos) << in_wash;
+  EXPECT_LT(fault("{\"" + std::string(100000, 'x') + "\": 1}").size(), 2000u);
+  EXPECT_LT(fault("{\"sky\": \"" + std::string(100000, 'x') + "\"}").size(), 2000u);
+}
+
 TEST(Style, EveryNumberHasItsRange) {
   int numbers = 0;
   const auto check = [&](const StyleKey& key, const std::string& before, const std::string& after) {
