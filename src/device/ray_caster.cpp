@@ -80,20 +80,25 @@ struct RayCaster::Impl {
     return result;
   }
 
-  /// Calls launch(begin, count, items) for pieces of `rays` rays, `per_item` to a work-item.
-  template <class Launch>
-  void in_launches(std::size_t rays, int per_item, Launch&& launch) {
-    const std::size_t most = kGroupsPerLaunch * kGroup * static_cast<std::size_t>(per_item);
-    for (std::size_t begin = 0; begin < rays; begin += most) {
-      const std::size_t count = std::min(most, rays - begin);
-      const std::size_t group_rays = kGroup * static_cast<std::size_t>(per_item);
-      launch(begin, count, (count + group_rays - 1) / group_rays * kGroup);
+  /// Runs `kernel`, whose arguments from `next` on are the number of rays, the rays and the
+  /// results, on all of them, `per_item` to a work-item.
+  template <class Result>
+  void cast(cl::Kernel& kernel, cl_uint next, int per_item, std::span<const VoxelRay> rays,
+            std::span<Result> results) {
+    const std::size_t group = kGroup * static_cast<std::size_t>(per_item);
+    for (std::size_t begin = 0; begin < rays.size(); begin += kGroupsPerLaunch * group) {
+      const std::size_t count = std::min(kGroupsPerLaunch * group, rays.size() - begin);
+      const auto out = results.subspan(begin, count);
+      const cl::Buffer in = engine.buffer(rays.subspan(begin, count), CL_MEM_READ_ONLY);
+      const cl::Buffer results_out = engine.buffer(out, CL_MEM_WRITE_ONLY);
+      kernel.setArg(next, static_cast<cl_uint>(count));
+      kernel.setArg(next + 1, in);
+      kernel.setArg(next + 2, results_out);
+      engine.queue.enqueueNDRangeKernel(kernel, cl::NullRange,
+                                        cl::NDRange((count + group - 1) / group * kGroup),
+                                        cl::NDRange(kGroup));
+      engine.fetch(results_out, out);
     }
-  }
-
-  void enqueue(const cl::Kernel& kernel, std::size_t items) {
-    engine.queue.enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(items),
-                                      cl::NDRange(kGroup));
   }
 };
 
@@ -132,17 +137,7 @@ void RayCaster::closest(std::span<const VoxelRay> rays, std::span<VoxelHit> hits
     kernel.setArg(9, d.first);
     kernel.setArg(10, d.list);
     kernel.setArg(11, d.threshold);
-    d.in_launches(
-        rays.size(), d.lanes, [&](std::size_t begin, std::size_t count, std::size_t items) {
-          const auto out = hits.subspan(begin, count);
-          const cl::Buffer in = d.engine.buffer(rays.subspan(begin, count), CL_MEM_READ_ONLY);
-          const cl::Buffer hits_out = d.engine.buffer(out, CL_MEM_WRITE_ONLY);
-          kernel.setArg(12, static_cast<cl_uint>(count));
-          kernel.setArg(13, in);
-          kernel.setArg(14, hits_out);
-          d.enqueue(kernel, items);
-          d.engine.fetch(hits_out, out);
-        });
+    d.cast(kernel, 12, d.lanes, rays, hits);
   });
 }
 
@@ -154,16 +149,7 @@ void RayCaster::blocked(std::span<const VoxelRay> rays, float soft, float reach,
     kernel.setArg(7, d.threshold);
     kernel.setArg(8, soft);
     kernel.setArg(9, reach);
-    d.in_launches(rays.size(), 1, [&](std::size_t begin, std::size_t count, std::size_t items) {
-      const auto out = blocked.subspan(begin, count);
-      const cl::Buffer in = d.engine.buffer(rays.subspan(begin, count), CL_MEM_READ_ONLY);
-      const cl::Buffer blocked_out = d.engine.buffer(out, CL_MEM_WRITE_ONLY);
-      kernel.setArg(10, static_cast<cl_uint>(count));
-      kernel.setArg(11, in);
-      kernel.setArg(12, blocked_out);
-      d.enqueue(kernel, items);
-      d.engine.fetch(blocked_out, out);
-    });
+    d.cast(kernel, 10, 1, rays, blocked);
   });
 }
 

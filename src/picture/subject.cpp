@@ -178,9 +178,9 @@ bool is_shape(const TreeModel& file) {
     const Primitive& primitive = file.primitives[instance.primitive];
     const Material* material =
         primitive.material < 0 ? nullptr : &file.materials[primitive.material];
-    const bool bare = primitive.mesh_name.empty() && instance.node_name.empty() &&
-                      (!material || (material->name.empty() &&
-                                     material->alpha_mode == AlphaMode::opaque));
+    const bool bare =
+        primitive.mesh_name.empty() && instance.node_name.empty() &&
+        (!material || (material->name.empty() && material->alpha_mode == AlphaMode::opaque));
     return bare || primitive.mesh_name == kShapeName;
   });
 }
