@@ -194,7 +194,9 @@ TEST(LeafOrder, ALeafIsKnownByItsPlaceInTheFileWhereverItMoves) {
   TreeModel tree = tree_of({crown(random, 60)});
   const auto places = [&] {
     // By their place in the file: a leaf's corner.
-    const LeafSet leaves = find_leaves(tree, {.globs = {"*"}});
+    LeafOptions every;
+    every.globs = {"*"};
+    const LeafSet leaves = find_leaves(tree, every);
     EXPECT_EQ(leaves.order_in_file.size(), leaves.leaf_count);
     std::vector<Vec3d> lowest(leaves.leaf_count, Vec3d{1e9, 1e9, 1e9});
     for (const LeafVertex& v : leaves.vertices) {
