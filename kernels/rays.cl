@@ -13,8 +13,8 @@
 // Global size: the number of rays over LANES, or more.
 #include "way.clh"
 
-// Steps over the edge of a block, voxels.
-#define NUDGE 1e-3f
+// Steps over the edge of a block, voxels; more where t is so large that it would be lost.
+#define NUDGE(t) fmax(4e-7f * (t), 1e-3f)
 // Rounding in the test of a kernel against a beam, voxels.
 #define BEAM_SLACK 1e-2f
 // From a crossing that is not drawn to where the ray goes on.
@@ -119,7 +119,7 @@ kernel void rays_closest(GRID_ARGUMENTS, global const Kernel* restrict kernels,
   Reals gradient[3] = {{.v = REAL(0.0f)}, {.v = REAL(0.0f)}, {.v = REAL(0.0f)}};
 
   while (ANY(active)) {
-    const real ahead = t + NUDGE;
+    const real ahead = t + NUDGE(t);
     const Real3 p = along(o, d, ahead);
     const Reals px = {.v = p.x}, py = {.v = p.y}, pz = {.v = p.z};
     const int leader = first_of(active);
@@ -234,7 +234,7 @@ kernel void rays_blocked(GRID_ARGUMENTS, float threshold, float soft, float reac
     t = fmax(t, fmin(to_low, to_high));
     end = fmin(end, fmax(to_low, to_high));
   }
-  // From here the ray begins where it enters the grid: in a large t the nudge would be lost.
+  // From here the ray begins where it enters the grid, where floats are fine.
   for (int a = 0; a < 3; ++a) o[a] = fma(t, d[a], o[a]);
   end -= t;
   t = 0.0f;
@@ -257,7 +257,8 @@ kernel void rays_blocked(GRID_ARGUMENTS, float threshold, float soft, float reac
         const float far = (float)(block.low[a] + (d[a] > 0.0f ? block.edge : 0));
         leaves = fmin(leaves, (far - o[a]) * inverse[a]);
       }
-      t = fmax(leaves, t) + NUDGE;
+      t = fmax(leaves, t);
+      t += NUDGE(t);
     }
   }
   blocked[i] = most;
