@@ -34,6 +34,12 @@ ROOMS = {
         ),
         ("tbb",),
     ),
+    "scene": (("text",), ("json", "stb")),
+    "ranks": ((), ("mpi",)),
+    "forest": (
+        ("density", "device", "output", "pipeline", "surface", "text"),
+        ("json", "openvdb", "openssl", "tbb", "tinygltf"),
+    ),
     "cli": (("text",), ("cli11", "json")),
     "bench": (
         ("density", "device", "picture", "pipeline", "surface"),
@@ -53,7 +59,9 @@ LIBRARIES = {
     "meshoptimizer": ("meshoptimizer.h",),
     "mustache": ("kainjow/",),
     "opencl": ("CL/",),
+    "mpi": ("mpi.h",),
     "openexr": ("OpenEXR/",),
+    "openssl": ("openssl/",),
     "openvdb": ("openvdb/",),
     "stb": ("stb/", "stb_"),
     "tbb": ("tbb/", "oneapi/"),

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "leafhull/device.h"
+#include "leafhull/options.h"
+#include "leafhull/output.h"
+#include "leafhull/scene.h"
+#include "leafhull/shape.h"
+
+namespace leafhull {
+
+class Ranks;
+
+enum class Merge { none, canopy };         ///< each model once with instances, or one surface
+enum class ControlScope { model, scene };  ///< over what m and s are taken
+
+std::span<const std::string_view> names(Merge);
+std::span<const std::string_view> names(ControlScope);
+
+/// Part `part` of `parts` of a forest's tiles, 1 to `parts`.
+struct TileRange {
+  int part = 1, parts = 1;
+};
+
+struct ForestOptions {
+  Options shape;  ///< as of an extraction; a resolution counts along the largest tree
+  Merge merge = Merge::canopy;
+  ControlScope control_scope = ControlScope::model;
+  int levels = 1;                                 ///< of abstraction, 1 to 16
+  std::uint64_t memory = std::uint64_t{4} << 30;  ///< bytes that a rank may hold
+  std::optional<int> tile;  ///< voxels along a tile's edge, a multiple of 32 up to 512; empty: 128,
+                            ///< or less where the memory asks for it
+  std::optional<TileRange> range;  ///< only these tiles, nothing after them
+  bool finish = false;             ///< only what follows when every tile is there
+  bool resume = false;             ///< goes on with what an earlier run has left in the folder
+  bool restart = false;            ///< removes what an earlier run has left there
+  std::optional<std::filesystem::path> single;  ///< .glb or .ply: all tiles of level 0, welded
+};
+
+/// Where a run is.
+struct ForestProgress {
+  std::string_view stage;
+  std::size_t tiles_done = 0, tiles = 0;
+  std::uint64_t leaf_vertices = 0;   ///< of this run's tiles so far
+  std::uint64_t resident_bytes = 0;  ///< of this process, now
+};
+using ForestProgressVisitor = std::function<void(const ForestProgress&)>;
+
+/// What a run did.
+struct ForestSummary {
+  std::size_t trees = 0, models = 0, skipped = 0;
+  std::size_t tiles = 0, resumed = 0, empty = 0;  ///< tiles in all; done before; without a surface
+  std::size_t remaining = 0;                      ///< tiles that other ranges have still to do
+  std::uint64_t leaf_vertices = 0;                ///< of all trees
+  std::uint64_t mesh_vertices = 0, mesh_triangles = 0;
+  std::uint64_t peak_memory_bytes = 0;
+  std::vector<StageTime> seconds;
+  std::vector<std::string> warnings;
+};
+
+/// Turns a scene into abstract shapes, kept in `folder`: `tileset.json` (OGC 3D Tiles 1.1) and
+/// tiles/ for a canopy, forest.glb for Merge::none, and manifest.json with a checksum of each file.
+/// The bytes depend on the scene and the options alone, not on ranks, ranges, threads or
+/// interruptions.
+/// @throws Error usage: options; a folder that holds another forest, or one that is not finished,
+///         without `resume`; more memory or more tiles than there is room for; input: a model;
+///         empty: no tree has a surface; output; device.
+ForestSummary run_forest(const Scene& scene, const ForestOptions& options, Device& device,
+                         Ranks& ranks, const std::filesystem::path& folder,
+                         const RunDescription& run, const ForestProgressVisitor& progress = {});
+
+}  // namespace leafhull

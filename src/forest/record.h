@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "forest/tile.h"
+#include "leafhull/vec.h"
+
+namespace leafhull {
+
+/// A file that belongs to a forest.
+struct FileRecord {
+  std::uint64_t bytes = 0;
+  std::string sha256;  ///< hexadecimal; empty: there is no such file
+};
+
+/// What is known of a tile once it is on the disk.
+struct TileRecord {
+  TileId id;
+  FileRecord mesh;  ///< none where the tile holds no surface
+  FileRecord seam;
+  std::uint64_t vertices = 0, triangles = 0, own_vertices = 0;
+  Box bounds;  ///< of the mesh, scene units
+  std::uint64_t leaf_vertices = 0, gathered = 0, evaluated_voxels = 0, dropped_components = 0;
+  // Of the run alone, not of the result.
+  double seconds = 0;
+  std::uint64_t resident_bytes = 0;  ///< the highest while it was computed
+  int rank = 0;
+};
+
+}  // namespace leafhull

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "forest/store.h"
+
+namespace leafhull {
+
+/// tileset.json of OGC 3D Tiles 1.1 for tiles of one level or more: a tile's children are those of
+/// the level below within it, which replace it. A tile without a surface has no content, and one
+/// without surfaces under it is left out. glTF has y up and 3D Tiles z: boxes are turned.
+/// @param errors by level: how far, in scene units, its surface may be from what it stands for.
+/// Source: OGC 22-025r4.
+std::string tileset_json(std::span<const FinishedTile> tiles, std::span<const double> errors);
+
+}  // namespace leafhull
