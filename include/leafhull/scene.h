@@ -26,19 +26,19 @@ struct SceneModel {
 };
 
 /// A tree in the scene: x' = linear x + position.
-struct Placement {
+struct PlacedTree {
   Vec3d position;                                          ///< scene units, as the model's
   std::array<float, 9> linear{1, 0, 0, 0, 1, 0, 0, 0, 1};  ///< row by row, invertible
   std::uint32_t model = 0;                                 ///< into Scene::models
 };
-static_assert(sizeof(Placement) == 64);
+static_assert(sizeof(PlacedTree) == 64);
 
-/// Thousands of trees of a few models. Placements stay symbolic: nothing is expanded.
+/// Thousands of trees of a few models. Trees stay symbolic: nothing is expanded.
 struct Scene {
   std::filesystem::path path;
   std::vector<SceneModel> models;
-  std::vector<Placement> placements;  ///< in the order of the file
-  std::size_t skipped = 0;            ///< placements with a scale of zero or values not finite
+  std::vector<PlacedTree> trees;  ///< in the order of the file
+  std::size_t skipped = 0;        ///< trees with a scale of zero or values not finite
   std::vector<std::string> warnings;
 };
 
