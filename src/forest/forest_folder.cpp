@@ -60,7 +60,6 @@ FileRecord ForestFolder::write(const fs::path& file,
   const FileRecord record = checked.record();
   if (before) before(record);
   if (std::rename(temporary.path(), file.c_str()) != 0) throw write_error(file, errno);
-  sync_folder(file.parent_path());
   return record;
 }
 

@@ -48,7 +48,8 @@ class ForestFolder {
   std::filesystem::path removed() const { return work() / "removed.json"; }
 
   /// Writes `file`, whose folder is made: under a temporary name in work/, where nothing outlives
-  /// the forest (beside the file on another file system), then synced and renamed.
+  /// the forest (beside the file on another file system), then synced and renamed;
+  /// its name is for the caller to sync.
   /// @param before called before the rename.
   /// @throws Error output.
   FileRecord write(const std::filesystem::path& file,

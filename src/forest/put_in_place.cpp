@@ -109,6 +109,7 @@ void finish_store(const Store& store, std::span<const FinishedTile> tiles,
                                 {"tiles", std::move(rows)}});
   folder.write(folder.manifest(),
                [&](std::ostream& stream) { stream << dumped(manifest, 2) << '\n'; });
+  sync_folder(store.folder());
   folder.remove_work();
 }
 

@@ -14,6 +14,7 @@
 #include "leafhull/error.h"
 #include "output/line_file.h"
 #include "output/mesh_vertex.h"
+#include "output/temporary_file.h"
 #include "output/write_error.h"
 #include "output/writers.h"
 
@@ -223,6 +224,9 @@ TileRecord Store::put(const TileSurface& surface, TileRecord record) {
     record.seam = folder.write(folder.seam(record.id),
                                [&](std::ostream& stream) { write_seam(seam, stream); });
   }
+  const fs::path level = folder.mesh(record.id).parent_path();
+  if (!record.mesh.sha256.empty() || !record.seam.sha256.empty()) sync_folder(level);
+
   Json line{{"schema", kTileSchema}, {"plan", impl_->plan_checksum}};
   line.update(json_of(record));
   impl_->journal->append(dumped(sealed(std::move(line))));
@@ -233,7 +237,9 @@ TileRecord Store::put(const TileSurface& surface, TileRecord record) {
 FileRecord put_file(const Store& store, const std::string& name,
                     const std::function<void(std::ostream&)>& writer) {
   const ForestFolder folder(store.folder(), store.writer());
-  return folder.write(store.folder() / name, writer);
+  const FileRecord record = folder.write(store.folder() / name, writer);
+  sync_folder(store.folder());
+  return record;
 }
 
 }  // namespace leafhull

@@ -10,6 +10,7 @@
 #include "output/destination.h"
 #include "output/mesh_head.h"
 #include "output/mesh_vertex.h"
+#include "output/temporary_file.h"
 #include "text/file_name.h"
 
 namespace leafhull {
@@ -181,7 +182,10 @@ FileRecord weld(const StoredTiles& tiles, std::span<const PlacedTile> placed,
     folder.write(folder.files(),
                  [&](std::ostream& stream) { stream << dumped(sealed(files), 2) << '\n'; });
   };
-  return folder.write(resolve_destination(folder.path() / file), write, announce);
+  const fs::path destination = resolve_destination(folder.path() / file);
+  const FileRecord record = folder.write(destination, write, announce);
+  sync_folder(destination.parent_path());
+  return record;
 }
 
 }  // namespace leafhull
