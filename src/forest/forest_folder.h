@@ -70,6 +70,8 @@ class ForestFolder {
   void remove_temporary() const;
 
  private:
+  void clear_work() const;
+
   std::filesystem::path folder_;
   std::string writer_;
 };

@@ -144,17 +144,22 @@ void ForestFolder::remove_forest() const {
   remove_listed(files(), kFilesSchema, folder_);
   remove_tiles(tiles());
   for (const char* name : {"tiles", "tileset.json", "forest.glb"}) remove_path(folder_ / name);
-  remove_work();
+  clear_work();  // work/ stays: what is left in tiles/ is known not to be in the way
 }
 
 void ForestFolder::remove_work() const {
+  clear_work();
+  remove_path(work());
+}
+
+void ForestFolder::clear_work() const {
   for (const fs::path& journal : journals()) remove_path(journal);
   remove_tiles(work());
   for (const fs::path& entry : entries_of(work())) {
     if (is_temporary(entry.filename().string())) remove_path(entry);
   }
   // The plan last: without it, work/ is not ours.
-  for (const fs::path& file : {files(), removed(), plan(), work()}) remove_path(file);
+  for (const fs::path& file : {files(), removed(), plan()}) remove_path(file);
 }
 
 void ForestFolder::remove_temporary() const {
