@@ -27,6 +27,10 @@ std::vector<Kernel> controlled_kernels(std::span<const LeafVertex> leaves,
                                        const DensityStatistics& statistics, double radius_max,
                                        const Options& resolved);
 
+/// One of them, for a leaf vertex with N_iso = `density` there.
+Kernel controlled_kernel(const LeafVertex& leaf, float density, const DensityStatistics& statistics,
+                         double radius_max, const Options& resolved);
+
 /// The share of anisotropy at density n, 0 at p1 and below to 1 at p2 and above. Source: Eq. (8).
 double anisotropy(double n, const DensityStatistics& statistics);
 
