@@ -28,11 +28,15 @@ DensityStatistics density_statistics(std::span<const float> isotropic_density,
   for (const float n : isotropic_density) s.mean += n;
   s.mean /= count;
   for (const float n : isotropic_density) s.variance += (n - s.mean) * (n - s.mean);
-  s.variance /= count;
-  const double spread = resolved.spread == Spread::stddev ? std::sqrt(s.variance) : s.variance;
-  s.p1 = s.mean + resolved.band_low * spread;
-  s.p2 = s.mean + resolved.band_high * spread;
-  return s;
+  return band(s.mean, s.variance / count, resolved);
+}
+
+DensityStatistics band(double mean, double variance, const Options& resolved) {
+  const double spread = resolved.spread == Spread::stddev ? std::sqrt(variance) : variance;
+  return {.mean = mean,
+          .variance = variance,
+          .p1 = mean + resolved.band_low * spread,
+          .p2 = mean + resolved.band_high * spread};
 }
 
 std::vector<Kernel> isotropic_kernels(std::span<const LeafVertex> leaves, double radius_max) {

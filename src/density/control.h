@@ -16,6 +16,9 @@ namespace leafhull {
 DensityStatistics density_statistics(std::span<const float> isotropic_density,
                                      const Options& resolved);
 
+/// The same from a mean and a variance.
+DensityStatistics band(double mean, double variance, const Options& resolved);
+
 /// The kernels that measure N_iso: radius `radius_max` (model units) in every direction.
 std::vector<Kernel> isotropic_kernels(std::span<const LeafVertex> leaves, double radius_max);
 

@@ -44,7 +44,7 @@ class Place {
 
   /// The kernels that N is made of.
   DensityFunction density(std::span<const KernelRun> runs) const {
-    if (!level_.scene_statistics) {
+    if (level_.scope == ControlScope::model) {
       return density(runs, [](const ForestModel& model, std::size_t j, std::size_t) {
         return model.kernels[j];
       });

@@ -46,7 +46,7 @@ std::vector<KernelRun> runs_near(const Scene& scene, const ForestLevel& level,
     std::vector<KernelRun>& runs = found[t];
     for (const KernelGroup& group : model.groups) {
       // Where control depends on the scene, a kernel may grow up to the model's reach.
-      const double reach = level.scene_statistics ? model.reach : group.reach;
+      const double reach = level.scope == ControlScope::scene ? model.reach : group.reach;
       if (apart(map(group.centres), box, reach * map.stretch())) continue;
       if (!runs.empty() && runs.back().end == group.first) {
         runs.back().end = group.end;

@@ -41,6 +41,7 @@ struct ForestModel {
 struct ForestLevel {
   int level = 0;
   Options options;  ///< resolved
+  ControlScope scope = ControlScope::model;
   double voxel_size = 0, threshold = 0;
   double reach = 0;  ///< the largest radius of all trees, scene units
   std::vector<ForestModel> models;

@@ -45,11 +45,7 @@ Json to_json_value(const std::optional<Value>& value) {
 
 /// Every option by name, the ones that an extraction derives as it came to use them.
 Json parameters(const Report& report) {
-  Json parameters;
-  for (const OptionRow& row : option_table()) {
-    parameters[to_key(row.name)] =
-        std::visit([&](auto member) { return to_json_value(report.options.*member); }, row.member);
-  }
+  Json parameters = option_values(report.options);
   parameters["threshold"] = report.threshold;
   parameters["threshold_percent"] = to_json_value(report.options.threshold_percent);
   parameters["coverage"] = to_json_value(report.options.coverage);
@@ -97,6 +93,15 @@ Json seconds(const std::vector<StageTime>& times) {
 }
 
 }  // namespace
+
+Json option_values(const Options& options) {
+  Json values;
+  for (const OptionRow& row : option_table()) {
+    values[to_key(row.name)] =
+        std::visit([&](auto member) { return to_json_value(options.*member); }, row.member);
+  }
+  return values;
+}
 
 Json report_object(const Report& report, const RunDescription& run) {
   return {{"schema", "leafhull-report/1"},

@@ -85,6 +85,12 @@ std::uint64_t available_memory() {
   return std::min({meminfo_available(), cgroup_available(), address_space_available()});
 }
 
+std::uint64_t resident_memory() {
+  std::uint64_t pages = 0, resident = 0;
+  std::ifstream("/proc/self/statm") >> pages >> resident;
+  return resident * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
+}
+
 FieldMemory::FieldMemory(std::span<const Kernel> kernels, std::shared_ptr<const SpatialHash> hash,
                          const Box& bounds, const Report& report,
                          std::span<const double> thresholds, std::uint64_t available)

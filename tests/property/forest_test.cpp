@@ -165,6 +165,7 @@ TEST(Forest, FarFromTheOriginToo) {
 TEST(Forest, WithControlOverTheScene) {
   const Scene scene = grove({-15, 0, -15});
   ForestLevel level = level_of(scene);
+  level.scope = ControlScope::scene;
   level.scene_statistics = DensityStatistics{.mean = 8, .variance = 9, .p1 = 8, .p2 = 14};
   expect_same(surface_of(scene, level, 64), surface_of(scene, level, 512));
 }
