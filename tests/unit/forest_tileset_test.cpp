@@ -40,7 +40,7 @@ json tileset(const std::vector<FinishedTile>& tiles) {
 }
 
 std::string uri(const json& tile) {
-  return tile.contains("content") ? tile["content"]["uri"].get<std::string>() : "";
+  return tile.contains("content") ? tile.at("content").at("uri").get<std::string>() : "";
 }
 
 std::string uri(const TileId& id) {
@@ -54,7 +54,7 @@ void visit_tiles(const json& tile, Visit&& visit, std::vector<const json*> ances
   visit(tile, ancestors);
   ancestors.push_back(&tile);
   if (!tile.contains("children")) return;
-  for (const json& child : tile["children"]) visit_tiles(child, visit, ancestors);
+  for (const json& child : tile.at("children")) visit_tiles(child, visit, ancestors);
 }
 
 std::vector<std::string> uris(const json& tileset) {
@@ -92,7 +92,7 @@ void check(const json& tileset, const std::vector<FinishedTile>& tiles) {
       EXPECT_GE((*ancestors.back())["geometricError"], tile["geometricError"]);
     }
     if (uri(tile).empty()) {
-      EXPECT_TRUE(tile.contains("children") && !tile["children"].empty()) << "leads nowhere";
+      EXPECT_TRUE(tile.contains("children") && !tile.at("children").empty()) << "leads nowhere";
       return;
     }
     const Box& bounds = surfaces.at(uri(tile));
@@ -129,13 +129,13 @@ TEST(Tileset, ReplacesATileByThoseWithinIt) {
   const json& root = tileset["root"];
   EXPECT_EQ(uri(root), "tiles/2/1_0_0.glb");
   EXPECT_EQ(root["geometricError"], kErrors[2]);
-  ASSERT_EQ(root["children"].size(), 2u);
-  const json& left = root["children"][0];
+  ASSERT_EQ(root.at("children").size(), 2u);
+  const json& left = root.at("children")[0];
   EXPECT_EQ(uri(left), "tiles/1/2_1_0.glb");
   EXPECT_EQ(left["geometricError"], kErrors[1]);
-  ASSERT_EQ(left["children"].size(), 2u);
-  EXPECT_EQ(uri(left["children"][1]), "tiles/0/5_3_1.glb");
-  EXPECT_EQ(left["children"][1]["geometricError"], kErrors[0]);
+  ASSERT_EQ(left.at("children").size(), 2u);
+  EXPECT_EQ(uri(left.at("children")[1]), "tiles/0/5_3_1.glb");
+  EXPECT_EQ(left.at("children")[1]["geometricError"], kErrors[0]);
   check(tileset, tiles);
 }
 
@@ -144,7 +144,7 @@ TEST(Tileset, StandsOverSeveralTilesOfTheCoarsestLevel) {
   const json tileset = test::tileset(tiles);
   const json& root = tileset["root"];
   EXPECT_EQ(uri(root), "");
-  EXPECT_EQ(root["children"].size(), 2u);
+  EXPECT_EQ(root.at("children").size(), 2u);
   EXPECT_GT(root["geometricError"], 7 * 32) << "what is missing is as wide as the forest";
   check(tileset, tiles);
 }
@@ -153,13 +153,13 @@ TEST(Tileset, FindsTheParentOfNegativeCoordinates) {
   const std::vector tiles{tile(0, {-1, -2, 0}), tile(0, {-3, 0, 0}), tile(1, {-1, -1, 0}),
                           tile(1, {-2, 0, 0}), tile(1, {0, 0, 0})};
   const json tileset = test::tileset(tiles);
-  for (const json& coarse : tileset["root"]["children"]) {
+  for (const json& coarse : tileset["root"].at("children")) {
     if (uri(coarse) == "tiles/1/-1_-1_0.glb") {
-      ASSERT_EQ(coarse["children"].size(), 1u);
-      EXPECT_EQ(uri(coarse["children"][0]), "tiles/0/-1_-2_0.glb");
+      ASSERT_EQ(coarse.at("children").size(), 1u);
+      EXPECT_EQ(uri(coarse.at("children")[0]), "tiles/0/-1_-2_0.glb");
     } else if (uri(coarse) == "tiles/1/-2_0_0.glb") {
-      ASSERT_EQ(coarse["children"].size(), 1u);
-      EXPECT_EQ(uri(coarse["children"][0]), "tiles/0/-3_0_0.glb");
+      ASSERT_EQ(coarse.at("children").size(), 1u);
+      EXPECT_EQ(uri(coarse.at("children")[0]), "tiles/0/-3_0_0.glb");
     } else {
       EXPECT_FALSE(coarse.contains("children"));
     }
@@ -171,12 +171,12 @@ TEST(Tileset, MakesParentsThatHaveNoSurface) {
   const std::vector tiles{tile(0, {0, 0, 0}), tile(0, {40, 0, 0}), tile(2, {0, 0, 0}),
                           empty_tile(1, {20, 0, 0})};
   const json tileset = test::tileset(tiles);
-  const json& far = tileset["root"]["children"][1];  // over the tile at 40
+  const json& far = tileset["root"].at("children")[1];  // over the tile at 40
   EXPECT_EQ(uri(far), "");
   EXPECT_EQ(far["geometricError"], kErrors[2]);
-  EXPECT_EQ(uri(far["children"][0]), "");
-  EXPECT_EQ(far["children"][0]["geometricError"], kErrors[1]);
-  EXPECT_EQ(uri(far["children"][0]["children"][0]), "tiles/0/40_0_0.glb");
+  EXPECT_EQ(uri(far.at("children")[0]), "");
+  EXPECT_EQ(far.at("children")[0]["geometricError"], kErrors[1]);
+  EXPECT_EQ(uri(far.at("children")[0].at("children")[0]), "tiles/0/40_0_0.glb");
   check(tileset, tiles);
 }
 
