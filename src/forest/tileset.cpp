@@ -114,9 +114,9 @@ void write_tile(std::ostream& out, const Octree& octree, const Node& node, std::
 
 std::string tileset_json(std::span<const FinishedTile> tiles, std::span<const double> errors) {
   const Octree octree = octree_of(tiles, errors);
-  const Json tileset = {
-      {"asset", {{"version", "1.1"}, {"generator", std::string("leafhull ") + kVersion}}},
-      {"geometricError", diagonal(octree.root.bounds) + octree.root.error}};
+  const Json generator = {{"generator", std::string("leafhull ") + kVersion}};
+  const Json tileset = {{"asset", {{"version", "1.1"}, {"extras", generator}}},
+                        {"geometricError", diagonal(octree.root.bounds) + octree.root.error}};
   std::ostringstream out;
   write_object(out, tileset, "root", [&] {
     out << "\n";

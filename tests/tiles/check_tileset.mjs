@@ -37,7 +37,7 @@ const tileset = JSON.parse(await readFile(join(folder, 'tileset.json'), 'utf8'))
 const files = (await readdir(join(folder, 'tiles'), { recursive: true }))
   .filter((name) => name.endsWith('.glb')).map((name) => `tiles/${name}`).sort();
 
-/** Calls visit(tile, ancestors, contents) for every tile as 3d-tiles-tools traverse them. */
+/** Calls visit(tile, ancestors, uris, source) for every tile as 3d-tiles-tools traverse them. */
 async function traverse(visit, input = folder) {
   const source = await TilesetSources.createAndOpen(input);
   const resolver = new TilesetSourceResourceResolver('.', source);
@@ -72,7 +72,7 @@ function assertTile(tile, where) {
 
 test('tileset.json is as OGC 3D Tiles 1.1 has it', async () => {
   assertKeys(tileset, ['asset', 'geometricError', 'root'], [], 'the tileset');
-  assertKeys(tileset.asset, ['version'], ['generator'], 'the asset');
+  assertKeys(tileset.asset, ['version'], ['extras'], 'the asset');
   assert.equal(tileset.asset.version, '1.1');
   assert.ok(isError(tileset.geometricError) && tileset.geometricError >= tileset.root.geometricError);
   assert.equal(tileset.root.refine, 'REPLACE');
@@ -123,9 +123,12 @@ test('3d-tiles-tools pack it without a complaint, and the package holds the same
   }
 });
 
-test('the glTF validator has nothing to say about the contents', async () => {
+test('the glTF validator finds no error in the contents, and nothing to warn of', async () => {
+  const remarks = {};
   for (const file of files) {
     const { issues } = await validator.validateBytes(new Uint8Array(await readFile(join(folder, file))));
-    assert.deepEqual(issues.messages, [], file);
+    assert.deepEqual(issues.messages.filter(({ severity }) => severity < 2), [], file);
+    for (const { code } of issues.messages) remarks[code] = (remarks[code] ?? 0) + 1;
   }
+  console.log('remarks:', remarks);
 });

@@ -8,15 +8,15 @@
 #include <iostream>
 #include <set>
 #include <sstream>
+#include <stdexcept>
 #include <vector>
 
 #include "forest/tileset.h"
 #include "output/writers.h"
 #include "unit/output_sample.h"
 
+namespace leafhull::test {
 namespace {
-
-using namespace leafhull;
 
 constexpr double kEdge = 16;  // of a tile of level 0
 constexpr std::array kErrors{0.25, 0.75, 2.0};
@@ -40,7 +40,7 @@ std::set<TileId> tile_ids() {
 Mesh ball(const TileId& id) {
   const double edge = kEdge * (1 << id.level);
   const Vec3d centre = (to_vec3d(id.at) + Vec3d{0.5, 0.5, 0.5}) * edge;
-  Mesh mesh = test::sphere(kRings[static_cast<std::size_t>(id.level)]);  // of radius 2
+  Mesh mesh = sphere(kRings[static_cast<std::size_t>(id.level)]);  // of radius 2
   if (id.at.z > 0) mesh.origin = {0, 0, edge * id.at.z};
   for (Vec3f& position : mesh.positions) {
     position = Vec3f(Vec3d(position) * (0.23 * edge) + centre - mesh.origin);
@@ -67,16 +67,12 @@ std::string name_of(const TileId& id) {
   return name.str();
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  if (argc != 2) return 2;
-  const std::filesystem::path folder(argv[1]);
+void write_sample(const std::filesystem::path& folder) {
   std::filesystem::remove_all(folder);
   std::vector<FinishedTile> tiles;
   for (const TileId& id : tile_ids()) {
     const Mesh mesh = ball(id);
-    const std::string glb = test::written([&](std::ostream& stream) { write_glb(mesh, stream); });
+    const std::string glb = written([&](std::ostream& stream) { write_glb(mesh, stream); });
     write(folder / "tiles" / name_of(id), glb);
     tiles.push_back({.id = id,
                      .mesh = {.bytes = glb.size(), .sha256 = "not looked at"},
@@ -85,4 +81,19 @@ int main(int argc, char** argv) {
                      .bounds = bounds_of(mesh)});
   }
   write(folder / "tileset.json", tileset_json(tiles, kErrors));
+}
+
+}  // namespace
+}  // namespace leafhull::test
+
+int main(int argc, char** argv) try {
+  if (argc != 2) {
+    std::cerr << "usage: sample_tileset FOLDER\n";
+    return 2;
+  }
+  leafhull::test::write_sample(argv[1]);
+  return 0;
+} catch (const std::exception& error) {
+  std::cerr << error.what() << "\n";
+  return 1;
 }

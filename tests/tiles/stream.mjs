@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A tileset in a real browser, drawn by 3d-tiles-renderer: node stream.mjs, with in the environment
+// A tileset in a real browser, drawn by 3d-tiles-renderer: node stream.mjs, with in the environment,
+// all paths absolute,
 //   TILESET   the folder of tileset.json
 //   LEVELS    how many levels of abstraction it has
 //   CHROMIUM
@@ -15,9 +16,9 @@ import test, { after, before } from 'node:test';
 
 const { CHROMIUM = '', LEVELS, PACKAGES, PICTURES, TILESET, WEB } = process.env;
 for (const [what, path, remedy] of [
+  ['esbuild', `${WEB}/node_modules/esbuild`, 'build with LEAFHULL_BUILD_VIEWER'],
   ['Chromium', CHROMIUM, 'apt-get install chromium'],
   ['3d-tiles-renderer', `${PACKAGES}/node_modules/3d-tiles-renderer`, 'build the target tiles_packages'],
-  ['esbuild', `${WEB}/node_modules/esbuild`, 'build with LEAFHULL_BUILD_VIEWER'],
 ]) {
   if (!existsSync(path)) {
     console.log(`SKIPPED: no ${what} at '${path}'; ${remedy}`);

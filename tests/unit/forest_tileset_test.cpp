@@ -10,6 +10,7 @@
 
 #include "forest/tileset.h"
 #include "leafhull/error.h"
+#include "leafhull/version.h"
 
 namespace leafhull::test {
 namespace {
@@ -79,10 +80,10 @@ void check(const json& tileset, const std::vector<FinishedTile>& tiles) {
 
   const auto contains = [](const json& tile, const Box& bounds) {
     const auto box = tile["boundingVolume"]["box"].get<std::array<double, 12>>();
-    for (const int other : {4, 5, 6, 8, 9, 10}) {
-      if (box[static_cast<std::size_t>(other)] != 0) return false;
+    for (const std::size_t off_axis : {4, 5, 6, 8, 9, 10}) {
+      if (box[off_axis] != 0) return false;
     }
-    return box[0] - box[3] <= bounds.low.x && box[0] + box[3] >= bounds.high.x &&  // x = x
+    return box[0] - box[3] <= bounds.low.x && box[0] + box[3] >= bounds.high.x &&
            box[1] - box[7] <= -bounds.high.z && box[1] + box[7] >= -bounds.low.z &&
            box[2] - box[11] <= bounds.low.y && box[2] + box[11] >= bounds.high.y;
   };
@@ -105,6 +106,7 @@ TEST(Tileset, HasOneTileForASingleSurface) {
   const FinishedTile only = tile(0, {1, 2, 3});
   const json tileset = test::tileset({only});
   EXPECT_EQ(tileset["asset"]["version"], "1.1");
+  EXPECT_EQ(tileset["asset"]["extras"]["generator"], std::string("leafhull ") + kVersion);
   const json& root = tileset["root"];
   EXPECT_EQ(root["refine"], "REPLACE");
   EXPECT_EQ(root["geometricError"], kErrors[0]);
