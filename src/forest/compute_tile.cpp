@@ -7,7 +7,7 @@
 #include "density/control.h"
 #include "forest/gather.h"
 #include "forest/plan.h"
-#include "forest/tile_mesh.h"
+#include "forest/finish_tile.h"
 #include "pipeline/evaluate.h"
 #include "surface/brick_mesher.h"
 

@@ -1,157 +1,171 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "forest/tile_mesh.h"
 
-#include <tbb/parallel_for.h>
+#include <tiny_gltf.h>
 
 #include <algorithm>
-#include <cmath>
-#include <unordered_map>
+#include <cstring>
+#include <numeric>
+#include <system_error>
+#include <utility>
 
-#include "forest/exact_volume.h"
-#include "surface/components.h"
+#include "forest/forest_folder.h"
+#include "forest/store.h"
+#include "leafhull/error.h"
+#include "output/mesh_vertex.h"
 
 namespace leafhull {
 namespace {
 
-constexpr int kSnapSteps = 12;
+namespace fs = std::filesystem;
 
-/// Cells of the global lattice.
-Coord global(Coord local, const Lattice& lattice) {
-  return {static_cast<std::int32_t>(lattice.anchor.x + local.x),
-          static_cast<std::int32_t>(lattice.anchor.y + local.y),
-          static_cast<std::int32_t>(lattice.anchor.z + local.z)};
-}
+constexpr const char* kComputeAgain = "Run it again with --resume: the tile is computed again.";
 
-/// Whether a vertex may be shared with another tile: another's, or in the lowest layer of cells.
-class Seam {
+class GlbReader {
  public:
-  Seam(const OwnedPolygons& part, const SampleBox& own) : part_(part), own_(own) {}
+  GlbReader(std::string_view glb, const std::string& where) : where_(where) {
+    std::string error, warning;
+    const auto* bytes = reinterpret_cast<const unsigned char*>(glb.data());
+    if (!tinygltf::TinyGLTF().LoadBinaryFromMemory(&model_, &error, &warning, bytes,
+                                                   static_cast<unsigned>(glb.size()))) {
+      fail();
+    }
+    if (model_.buffers.size() != 1 || model_.nodes.size() != 1 || model_.meshes.size() != 1 ||
+        model_.meshes.front().primitives.size() != 1) {
+      fail();
+    }
+  }
 
-  bool borrowed(std::uint32_t v) const { return v >= part_.own; }
-  bool lent(std::uint32_t v) const {
-    const Coord c = cell_of(Vec3d(part_.polygons.points[v]));
-    return !borrowed(v) && (c.x == own_.low.x || c.y == own_.low.y || c.z == own_.low.z);
+  Mesh mesh() const {
+    const tinygltf::Primitive& primitive = model_.meshes.front().primitives.front();
+    Mesh mesh;
+    const std::vector<double>& origin = model_.nodes.front().translation;
+    if (origin.size() == 3) mesh.origin = {origin[0], origin[1], origin[2]};
+    mesh.positions = elements<Vec3f>(attribute(primitive, "POSITION"));
+    mesh.normals = elements<Vec3f>(attribute(primitive, "NORMAL"));
+    mesh.triangles = triangles(primitive.indices);
+    for (const auto& [a, b, c] : mesh.triangles) {
+      if (std::max({a, b, c}) >= mesh.positions.size()) fail();
+    }
+    if (mesh.normals.size() != mesh.positions.size()) fail();
+    return mesh;
   }
 
  private:
-  const OwnedPolygons& part_;
-  const SampleBox& own_;
+  using Triangles = std::vector<std::array<std::uint32_t, 3>>;
+
+  [[noreturn]] void fail() const {
+    throw Error(ErrorCode::input, where_ + " is no mesh that leafhull has written", kComputeAgain);
+  }
+
+  int attribute(const tinygltf::Primitive& primitive, const char* name) const {
+    const auto found = primitive.attributes.find(name);
+    return found == primitive.attributes.end() ? -1 : found->second;
+  }
+
+  const tinygltf::Accessor& accessor(int index) const {
+    if (index < 0 || static_cast<std::size_t>(index) >= model_.accessors.size()) fail();
+    return model_.accessors[static_cast<std::size_t>(index)];
+  }
+
+  /// All that is in the accessor's view.
+  template <class Element>
+  std::vector<Element> elements(int index) const {
+    const int view_index = accessor(index).bufferView;
+    if (view_index < 0 || static_cast<std::size_t>(view_index) >= model_.bufferViews.size()) fail();
+    const tinygltf::BufferView& view = model_.bufferViews[static_cast<std::size_t>(view_index)];
+    const std::vector<unsigned char>& data = model_.buffers.front().data;
+    if (view.byteOffset > data.size() || view.byteLength > data.size() - view.byteOffset ||
+        view.byteLength % sizeof(Element) != 0) {
+      fail();
+    }
+    std::vector<Element> result(view.byteLength / sizeof(Element));
+    std::memcpy(result.data(), data.data() + view.byteOffset, view.byteLength);
+    return result;
+  }
+
+  Triangles triangles(int index) const {
+    if (accessor(index).componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT) {
+      return elements<std::array<std::uint32_t, 3>>(index);
+    }
+    Triangles triangles;
+    for (const auto [a, b, c] : elements<std::array<std::uint16_t, 3>>(index)) {
+      triangles.push_back({a, b, c});
+    }
+    return triangles;
+  }
+
+  tinygltf::Model model_;
+  const std::string& where_;
 };
 
-/// Takes out the points that `stays` denies and their faces; the order is kept.
-template <class Stays>
-void keep(OwnedPolygons& part, Stays&& stays) {
-  Polygons& polygons = part.polygons;
-  const auto points = static_cast<std::uint32_t>(polygons.points.size());
-  std::vector<std::uint32_t> moved_to(points);
-  std::erase_if(polygons.faces, [&](const auto& face) { return !stays(face[0]); });
-  std::uint32_t next = 0, own = 0;
-  for (std::uint32_t v = 0; v < points; ++v) {
-    if (!stays(v)) continue;
-    polygons.points[next] = polygons.points[v];
-    part.patches[next] = part.patches[v];
-    moved_to[v] = next++;
-    if (v < part.own) own = next;
+/// Which vertices are connected with one of `seeds`.
+std::vector<bool> connected(const Mesh& mesh, const std::vector<std::uint32_t>& seeds) {
+  std::vector<std::uint32_t> parent(mesh.positions.size());
+  std::iota(parent.begin(), parent.end(), 0u);
+  const auto root = [&](std::uint32_t v) {
+    while (parent[v] != v) v = parent[v] = parent[parent[v]];
+    return v;
+  };
+  for (const auto& [a, b, c] : mesh.triangles) {
+    parent[root(b)] = root(a);
+    parent[root(c)] = root(a);
   }
-  part.own = own;
-  polygons.points.resize(next);
-  part.patches.resize(next);
-  for (auto& face : polygons.faces) {
-    for (std::uint32_t& v : face) v = moved_to[v];
-  }
+  std::vector<bool> is_root_of_seed(parent.size());
+  for (const std::uint32_t seed : seeds) is_root_of_seed[root(seed)] = true;
+  std::vector<bool> is_connected(parent.size());
+  for (std::uint32_t v = 0; v < parent.size(); ++v) is_connected[v] = is_root_of_seed[root(v)];
+  return is_connected;
 }
-
-/// Drops what is small and within the tile, and lists what reaches its seams.
-void sort_out_pieces(OwnedPolygons& part, const ForestLevel& level, const Lattice& lattice,
-                     const SampleBox& own, TileSurface& surface) {
-  const auto magnitude = [](ExactVolume v) { return v < 0 ? -v : v; };
-  {
-    const Seam seam(part, own);
-    const std::vector<std::uint32_t> root = component_of_each(part.polygons);
-    std::vector<bool> reaches(root.size(), false), small(root.size(), false);
-    for (std::uint32_t v = 0; v < root.size(); ++v) {
-      if (seam.borrowed(v) || seam.lent(v)) reaches[root[v]] = true;
-    }
-    for (const auto& [piece, volume] : exact_volumes(part.polygons, lattice, root)) {
-      small[piece] = !reaches[piece] && magnitude(volume) < level.least;
-      if (small[piece]) ++surface.dropped_components;
-    }
-    if (surface.dropped_components > 0) {
-      keep(part, [&](std::uint32_t v) { return !small[root[v]]; });
-    }
-  }
-
-  const Seam seam(part, own);
-  const std::vector<std::uint32_t> root = component_of_each(part.polygons);
-  std::unordered_map<std::uint32_t, std::uint32_t> component;
-  const auto points = static_cast<std::uint32_t>(root.size());
-  for (std::uint32_t v = 0; v < points; ++v) {
-    if (!seam.borrowed(v) && !seam.lent(v)) continue;
-    const auto [entry, added] =
-        component.try_emplace(root[v], static_cast<std::uint32_t>(surface.components.size()));
-    if (added) surface.components.push_back({.vertex = v, .volume = 0});
-    (seam.borrowed(v) ? surface.borrowed : surface.lent)
-        .push_back({.cell = global(cell_of(Vec3d(part.polygons.points[v])), lattice),
-                    .patch = part.patches[v],
-                    .vertex = v,
-                    .component = entry->second});
-  }
-  for (const auto& [piece, volume] : exact_volumes(part.polygons, lattice, root)) {
-    const auto entry = component.find(piece);
-    if (entry != component.end()) surface.components[entry->second].volume = volume;
-  }
-  std::sort(surface.borrowed.begin(), surface.borrowed.end());
-  std::sort(surface.lent.begin(), surface.lent.end());
-}
-
-/// Positions in scene units on a grid of a power of two, a thousandth of a voxel or less, from an
-/// origin on a coarse grid, such that origin and position are exact and so is their sum: floats
-/// have 24 bits.
-class SceneGrid {
- public:
-  SceneGrid(const Lattice& lattice, Vec3d middle)
-      : lattice_(lattice), step_(std::exp2(std::floor(std::log2(lattice.voxel_size / 1024)))) {
-    const double coarse = std::ldexp(step_, 24);
-    const auto nearest = [&](double v) { return std::round(v / coarse) * coarse; };
-    origin_ = {nearest(middle.x), nearest(middle.y), nearest(middle.z)};
-  }
-
-  Vec3d origin() const { return origin_; }
-  Vec3f operator()(Vec3d local) const {
-    const Vec3d w = lattice_.world(local);
-    const auto nearest = [&](double v) { return std::round(v / step_) * step_; };
-    return Vec3f(Vec3d(nearest(w.x), nearest(w.y), nearest(w.z)) - origin_);
-  }
-
- private:
-  const Lattice& lattice_;
-  double step_;
-  Vec3d origin_;
-};
 
 }  // namespace
 
-void finish_tile(OwnedPolygons part, DensityFunction& density, const ForestLevel& level,
-                 const Lattice& lattice, const SampleBox& own, TileSurface& surface) {
-  sort_out_pieces(part, level, lattice, own, surface);
-  Polygons& polygons = part.polygons;
-  surface.own_vertices = part.own;
-  Mesh& mesh = surface.mesh;
+Mesh read_mesh(std::string_view glb, const std::string& where) {
+  return GlbReader(glb, where).mesh();
+}
 
-  std::vector<Vec3d> points(polygons.points.size());
-  std::transform(polygons.points.begin(), polygons.points.end(), points.begin(),
-                 [](Vec3f p) { return Vec3d(p); });
-  mesh.normals =
-      density.snap(std::span(points), level.threshold, level.options.snap ? kSnapSteps : 0);
-  for (Vec3f& normal : mesh.normals) {
-    if (normal == Vec3f{}) normal = {0, 1, 0};  // the gradient vanishes: any will do
+std::string checked_content(const fs::path& file, const FileRecord& record) {
+  std::string content = content_of(file);
+  if (const FileRecord found = record_of(content);
+      found.bytes == record.bytes && found.sha256 == record.sha256) {
+    return content;
   }
-  const SceneGrid grid(lattice, lattice.world(0.5 * to_vec3d(own.low + own.high)));
-  mesh.origin = grid.origin();
-  tbb::parallel_for(std::size_t{0}, points.size(),
-                    [&](std::size_t v) { polygons.points[v] = grid(points[v]); });
-  mesh.triangles = triangulate(polygons);
-  mesh.positions = std::move(polygons.points);
+  std::error_code ignored;
+  fs::remove(file, ignored);
+  throw Error(ErrorCode::input, file.string() + " is damaged: its checksum differs", kComputeAgain);
+}
+
+void drop_pieces(Mesh& mesh, Seam& seam, std::span<const std::uint32_t> dropped) {
+  std::vector<std::uint32_t> seeds;
+  for (const std::uint32_t c : dropped) seeds.push_back(seam.components[c].vertex);
+  const std::vector<bool> goes = connected(mesh, seeds);
+
+  std::vector<std::uint32_t> moved_to(goes.size());
+  std::uint32_t kept = 0, own = 0;
+  for (std::uint32_t v = 0; v < goes.size(); ++v) {
+    if (goes[v]) continue;
+    mesh.positions[kept] = mesh.positions[v];
+    mesh.normals[kept] = mesh.normals[v];
+    if (v < seam.own_vertices) ++own;
+    moved_to[v] = kept++;
+  }
+  mesh.positions.resize(kept);
+  mesh.normals.resize(kept);
+  std::erase_if(mesh.triangles, [&](const auto& triangle) { return goes[triangle[0]]; });
+  for (auto& triangle : mesh.triangles) {
+    for (std::uint32_t& v : triangle) v = moved_to[v];
+  }
+  seam.own_vertices = own;
+  for (auto* vertices : {&seam.borrowed, &seam.lent}) {
+    std::erase_if(*vertices, [&](const SeamVertex& v) { return goes[v.vertex]; });
+    for (SeamVertex& v : *vertices) v.vertex = moved_to[v.vertex];
+  }
+}
+
+Box bounds_of(const Mesh& mesh) {
+  Box box;
+  for (std::size_t v = 0; v < mesh.positions.size(); ++v) box.include(world_position(mesh, v));
+  return box;
 }
 
 }  // namespace leafhull

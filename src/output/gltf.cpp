@@ -10,6 +10,7 @@
 
 #include "leafhull/error.h"
 #include "leafhull/version.h"
+#include "output/leaf_material.h"
 #include "output/mesh_vertex.h"
 #include "output/writers.h"
 
@@ -54,9 +55,13 @@ int add_positions(tinygltf::Model& model, const Mesh& mesh) {
   return index;
 }
 
-int add_normals(tinygltf::Model& model, const Mesh& mesh) {
+std::vector<Vec3f> unit_normals(const Mesh& mesh) {
   std::vector<Vec3f> normals(mesh.normals.size());
   for (std::size_t i = 0; i < normals.size(); ++i) normals[i] = unit_normal(mesh, i);
+  return normals;
+}
+
+int add_normals(tinygltf::Model& model, const std::vector<Vec3f>& normals) {
   return add_accessor(model, normals, TINYGLTF_TARGET_ARRAY_BUFFER, TINYGLTF_COMPONENT_TYPE_FLOAT,
                       TINYGLTF_TYPE_VEC3);
 }
@@ -79,8 +84,8 @@ int add_indices(tinygltf::Model& model, const Mesh& mesh) {
 
 tinygltf::Material leaf_material() {
   tinygltf::Material material;
-  material.name = "leaves";
-  material.pbrMetallicRoughness.baseColorFactor = {0.13, 0.3, 0.07, 1};
+  material.name = kLeafMaterial;
+  material.pbrMetallicRoughness.baseColorFactor.assign(kLeafColour.begin(), kLeafColour.end());
   material.pbrMetallicRoughness.metallicFactor = 0;
   material.pbrMetallicRoughness.roughnessFactor = 1;
   return material;
@@ -100,7 +105,7 @@ void check_size(const Mesh& mesh) {
   }
 }
 
-tinygltf::Model to_gltf(const Mesh& mesh) {
+tinygltf::Model to_gltf(const Mesh& mesh, const std::vector<Vec3f>& normals) {
   check_size(mesh);
   tinygltf::Model model;
   model.asset.version = "2.0";
@@ -113,16 +118,16 @@ tinygltf::Model to_gltf(const Mesh& mesh) {
   primitive.mode = TINYGLTF_MODE_TRIANGLES;
   primitive.material = 0;
   primitive.attributes["POSITION"] = add_positions(model, mesh);
-  primitive.attributes["NORMAL"] = add_normals(model, mesh);
+  primitive.attributes["NORMAL"] = add_normals(model, normals);
   primitive.indices = add_indices(model, mesh);
   model.materials.push_back(leaf_material());
 
   model.meshes.emplace_back();
-  model.meshes.front().name = "abstract shape";
+  model.meshes.front().name = kShapeName;
   model.meshes.front().primitives.push_back(std::move(primitive));
 
   tinygltf::Node node;
-  node.name = "abstract shape";
+  node.name = kShapeName;
   node.mesh = 0;
   if (mesh.origin != Vec3d{}) {
     node.translation = {mesh.origin.x, mesh.origin.y, mesh.origin.z};
@@ -135,16 +140,23 @@ tinygltf::Model to_gltf(const Mesh& mesh) {
   return model;
 }
 
-}  // namespace
-
-void write_glb(const Mesh& mesh, std::ostream& stream) {
-  const tinygltf::Model model = to_gltf(mesh);
+void write_binary(const tinygltf::Model& model, std::ostream& stream) {
   tinygltf::TinyGLTF().WriteGltfSceneToStream(&model, stream, /*prettyPrint=*/false,
                                               /*writeBinary=*/true);
 }
 
+}  // namespace
+
+void write_glb(const Mesh& mesh, std::ostream& stream) {
+  write_binary(to_gltf(mesh, unit_normals(mesh)), stream);
+}
+
+void write_glb_again(const Mesh& mesh, std::ostream& stream) {
+  write_binary(to_gltf(mesh, mesh.normals), stream);
+}
+
 void write_gltf(const Mesh& mesh, std::ostream& stream) {
-  const tinygltf::Model model = to_gltf(mesh);
+  const tinygltf::Model model = to_gltf(mesh, unit_normals(mesh));
   tinygltf::TinyGLTF().WriteGltfSceneToStream(&model, stream, /*prettyPrint=*/true,
                                               /*writeBinary=*/false);
 }
