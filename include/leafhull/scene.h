@@ -18,11 +18,12 @@ namespace leafhull {
 
 /// A tree model that a scene places.
 struct SceneModel {
-  std::string name;            ///< as messages and outputs call it
+  std::string name;            ///< as messages and outputs call it; no two are the same
   std::filesystem::path file;  ///< of a scatter file: a tree
   std::string mesh;            ///< of a glTF scene: its mesh
-  /// Of a glTF scene: the mesh's primitives alone, at the origin. Of a scatter file: empty.
-  std::shared_ptr<const TreeModel> tree;
+  /// Of a glTF scene: the meshes of its models, which share them and their images. Else empty.
+  std::shared_ptr<const TreeModel> meshes;
+  std::vector<Instance> instances;  ///< of `meshes`: the mesh's primitives, at the origin
 };
 
 /// A tree in the scene: x' = linear x + position.
