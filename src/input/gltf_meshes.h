@@ -37,8 +37,8 @@ struct GltfMeshes {
 
 using MeshVisitor = std::function<void(const GltfMeshes& meshes, const PlacedMesh& placed)>;
 
-/// Reads the meshes, then shows where they stand, one by one: millions need no memory. Nodes come in
-/// depth-first order. Arguments as of read_gltf.
+/// Reads the meshes, then shows where they stand, one by one: millions need no memory. Nodes come
+/// in depth-first order. Arguments as of read_gltf.
 /// @throws Error input.
 GltfMeshes read_gltf_meshes(ByteSpan bytes, const std::string& name,
                             const std::optional<std::filesystem::path>& folder,

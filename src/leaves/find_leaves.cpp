@@ -184,7 +184,8 @@ LeafSet find_leaves(const TreeModel& tree, std::span<const Instance> instances,
                     const LeafOptions& options) {
   check(options);
   LeafSet leaves;
-  const std::vector<std::uint32_t> selected = select_leaves(tree, instances, options, leaves.warnings);
+  const std::vector<std::uint32_t> selected =
+      select_leaves(tree, instances, options, leaves.warnings);
 
   LeafCollector collector(tree, options, leaves);
   for (auto first = selected.begin(); first != selected.end();) {

@@ -127,8 +127,7 @@ std::vector<PrimitiveSummary> summarize(const TreeModel& tree, const LeafOptions
   return summary;
 }
 
-std::vector<std::uint32_t> select_leaves(const TreeModel& tree,
-                                         std::span<const Instance> instances,
+std::vector<std::uint32_t> select_leaves(const TreeModel& tree, std::span<const Instance> instances,
                                          const LeafOptions& options,
                                          std::vector<std::string>& warnings) {
   std::vector<std::uint32_t> selected(instances.size());
