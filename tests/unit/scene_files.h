@@ -14,11 +14,12 @@
 
 namespace leafhull::test {
 
-/// Leaves as squares in a row along x, `count` of them, each a unit wide.
+/// Leaves as squares of one unit in a row along x, with gaps as wide.
 inline GlbPrimitive leaves_in_a_row(int count, int material) {
-  GlbPrimitive row{.material = material};
+  GlbPrimitive row;
+  row.material = material;
   for (int i = 0; i < count; ++i) {
-    const auto x = static_cast<float>(i);
+    const auto x = static_cast<float>(2 * i);
     const auto first = static_cast<std::uint32_t>(row.positions.size());
     row.positions.insert(row.positions.end(), {{x, 0, 0}, {x + 1, 0, 0}, {x + 1, 1, 0}, {x, 1, 0}});
     row.normals.insert(row.normals.end(), 4, Vec3f(0, 0, 1));

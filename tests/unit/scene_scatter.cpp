@@ -146,14 +146,14 @@ TEST_F(Scatter, TheSameOptionsGiveTheSameBytes) {
 }
 
 TEST_F(Scatter, SpacingIsInCrownWidths) {
-  // Crowns are 8 and 16 wide along x and flat along z: 6 in the mean.
+  // Crowns are 15 and 31 wide along x and flat along z: 11.5 in the mean.
   options_.count = 2500;
   options_.spacing = 0.5;
   options_.scale_low = 1, options_.scale_high = 3;
   Box box;
   for (const PlacedTree& tree : scatter().trees) box.include(tree.position);
-  EXPECT_NEAR(box.size().x, 0.5 * 6 * 2 * 50, 6);
-  EXPECT_NEAR(box.size().z, 0.5 * 6 * 2 * 50, 6);
+  EXPECT_NEAR(box.size().x, 0.5 * 11.5 * 2 * 50, 12);
+  EXPECT_NEAR(box.size().z, 0.5 * 11.5 * 2 * 50, 12);
 }
 
 TEST_F(Scatter, ScaleOfOneValueIsKept) {
