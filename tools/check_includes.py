@@ -34,7 +34,7 @@ ROOMS = {
         ),
         ("tbb",),
     ),
-    "scene": (("text",), ("json", "stb")),
+    "scene": (("input", "text"), ("json", "stb")),
     "ranks": ((), ("mpi",)),
     "forest": (
         ("density", "device", "output", "pipeline", "surface", "text"),

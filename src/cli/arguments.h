@@ -12,6 +12,7 @@
 #include "leafhull/options.h"
 #include "leafhull/output.h"
 #include "leafhull/render.h"
+#include "leafhull/scene.h"
 #include "leafhull/sweep.h"
 
 namespace leafhull::cli {
@@ -42,6 +43,10 @@ struct Arguments {
   std::optional<double> detail;
   std::optional<bool> is_shape;
   bool figure17 = false;
+
+  // scatter
+  ScatterOptions scatter;
+  std::filesystem::path scatter_file;
 
   // study
   std::vector<std::filesystem::path> trees;

@@ -26,6 +26,7 @@ Verb sweep_verb();
 Verb suggest_verb();
 Verb study_verb();
 Verb render_verb();
+Verb scatter_verb();
 Verb devices_verb();
 Verb help_options_verb();
 Verb help_pictures_verb();
