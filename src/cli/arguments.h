@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "leafhull/device.h"
+#include "leafhull/forest.h"
 #include "leafhull/options.h"
 #include "leafhull/output.h"
 #include "leafhull/render.h"
@@ -42,6 +43,8 @@ struct Arguments {
   std::optional<double> detail;
   std::optional<bool> is_shape;
   bool figure17 = false;
+
+  ForestOptions forest;
 
   // study
   std::vector<std::filesystem::path> trees;
