@@ -71,8 +71,8 @@ LIBRARIES = {
 
 # Of POSIX and the C library, for files, processes, signals, memory and shared libraries.
 SYSTEM = (
-    "sys/", "dlfcn.h", "fcntl.h", "fnmatch.h", "malloc.h", "poll.h", "signal.h", "spawn.h",
-    "unistd.h",
+    "sys/", "dlfcn.h", "fcntl.h", "fnmatch.h", "malloc.h", "poll.h", "sched.h", "signal.h",
+    "spawn.h", "unistd.h",
 )
 
 NAMESPACE = re.compile(r"^namespace ([\w:]+) \{", re.MULTILINE)

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -54,6 +55,17 @@ struct ForestProgress {
 };
 using ForestProgressVisitor = std::function<void(const ForestProgress&)>;
 
+/// A tile that this run has computed.
+struct TileRow {
+  int level = 0, x = 0, y = 0, z = 0;  ///< as in tiles/LEVEL/X_Y_Z.glb
+  std::uint64_t leaf_vertices = 0;     ///< in the tile
+  std::uint64_t gathered = 0;          ///< kernels that reach it
+  std::uint64_t evaluated_voxels = 0, vertices = 0, triangles = 0;
+  double seconds = 0;
+  std::uint64_t resident_bytes = 0;  ///< of its process, the most while it was computed
+  int rank = 0;
+};
+
 /// What a run did.
 struct ForestSummary {
   std::size_t trees = 0, models = 0, skipped = 0;
@@ -63,6 +75,7 @@ struct ForestSummary {
   std::uint64_t mesh_vertices = 0, mesh_triangles = 0;
   std::uint64_t peak_memory_bytes = 0;
   std::vector<StageTime> seconds;
+  std::vector<TileRow> rows;  ///< of all ranks, by tile
   std::vector<std::string> warnings;
 };
 
@@ -76,5 +89,9 @@ struct ForestSummary {
 ForestSummary run_forest(const Scene& scene, const ForestOptions& options, Device& device,
                          Ranks& ranks, const std::filesystem::path& folder,
                          const RunDescription& run, const ForestProgressVisitor& progress = {});
+
+/// The report as one JSON object, schema "leafhull-forest-report/1".
+std::string forest_report_json(const ForestSummary& summary, const ForestOptions& options,
+                               const RunDescription& run);
 
 }  // namespace leafhull

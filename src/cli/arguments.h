@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "leafhull/device.h"
+#include "leafhull/forest.h"
 #include "leafhull/options.h"
 #include "leafhull/output.h"
 #include "leafhull/render.h"
@@ -47,6 +48,9 @@ struct Arguments {
   // scatter
   ScatterOptions scatter;
   std::filesystem::path scatter_file;
+
+  // forest
+  ForestOptions forest;
 
   // study
   std::vector<std::filesystem::path> trees;

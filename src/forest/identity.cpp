@@ -55,7 +55,7 @@ nlohmann::ordered_json forest_identity(const Scene& scene, std::span<const LeafS
                 {"placing", checksum(scene.trees)},
                 {"models", leaves},
                 {"merge", name(options.merge)},
-                {"options", option_values(resolve(options.shape))}};
+                {"options", options_object(resolve(options.shape))}};
   if (options.merge == Merge::canopy) {
     identity["control_scope"] = name(options.control_scope);
     identity["levels"] = options.levels;

@@ -43,9 +43,9 @@ Json to_json_value(const std::optional<Value>& value) {
   return value ? to_json_value(*value) : Json();
 }
 
-/// Every option by name, the ones that an extraction derives as it came to use them.
+/// The options, the ones that an extraction derives as it came to use them.
 Json parameters(const Report& report) {
-  Json parameters = option_values(report.options);
+  Json parameters = options_object(report.options);
   parameters["threshold"] = report.threshold;
   parameters["threshold_percent"] = to_json_value(report.options.threshold_percent);
   parameters["coverage"] = to_json_value(report.options.coverage);
@@ -83,24 +83,24 @@ Json metrics(const Metrics& metrics) {
           {"off_site_sampled", metrics.off_site_sampled}};
 }
 
-Json seconds(const std::vector<StageTime>& times) {
+}  // namespace
+
+Json options_object(const Options& options) {
+  Json object;
+  for (const OptionRow& row : option_table()) {
+    object[to_key(row.name)] =
+        std::visit([&](auto member) { return to_json_value(options.*member); }, row.member);
+  }
+  return object;
+}
+
+Json seconds_object(const std::vector<StageTime>& times) {
   Json seconds = Json::object();
   for (const StageTime& time : times) {
     const std::string key = to_key(time.stage);
-    seconds[key] = seconds.value(key, 0.0) + time.seconds;  // a stage may run more than once
+    seconds[key] = seconds.value(key, 0.0) + time.seconds;
   }
   return seconds;
-}
-
-}  // namespace
-
-Json option_values(const Options& options) {
-  Json values;
-  for (const OptionRow& row : option_table()) {
-    values[to_key(row.name)] =
-        std::visit([&](auto member) { return to_json_value(options.*member); }, row.member);
-  }
-  return values;
 }
 
 Json report_object(const Report& report, const RunDescription& run) {
@@ -113,7 +113,7 @@ Json report_object(const Report& report, const RunDescription& run) {
           {"counts", counts(report.counts)},
           {"density", density(report.density)},
           {"metrics", metrics(report.metrics)},
-          {"seconds", seconds(report.seconds)},
+          {"seconds", seconds_object(report.seconds)},
           {"peak_memory_bytes", report.peak_memory_bytes},
           {"warnings", report.warnings}};
 }
