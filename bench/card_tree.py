@@ -16,7 +16,8 @@ def card_tree(seed: int) -> bytes:
     for _ in range(LEAVES):
         direction = [pick.gauss(0, 1) for _ in range(3)]
         part = pick.random() ** (1 / 3) / sum(d * d for d in direction) ** 0.5
-        middle = [d * part * r for d, r in zip(direction, (radius, height / 2, radius), strict=True)]
+        radii = (radius, height / 2, radius)
+        middle = [d * part * r for d, r in zip(direction, radii, strict=True)]
         middle[1] += 1 + height / 2
         u, v = pick.sample(range(3), 2)
         for a, b in ((-1, -1), (1, -1), (1, 1), (-1, 1)):
