@@ -119,7 +119,7 @@ class Document {
       Box box;
       for (const Vec3f& position : shape.mesh.positions) box.include(Vec3d(position));
       sizes_.push_back(to_eigen(box.size()));
-      meshes_.push_back(box.longest_side() > 0 ? add_mesh(model_, shape.mesh, shape.name) : -1);
+      meshes_.push_back(box.longest_side() > 0 ? add_mesh(model_, shape.mesh) : -1);
     }
   }
 
@@ -193,10 +193,9 @@ class Document {
 /// @throws Error output.
 void check_size(const tinygltf::Model& model, std::size_t shapes, std::size_t trees) {
   constexpr std::size_t kObject = 512, kEscaped = 6;  // bytes of JSON, at most
-  std::size_t json =
-      kObject * (model.nodes.size() + model.accessors.size() + model.bufferViews.size() + 1);
+  std::size_t json = kObject * (model.nodes.size() + model.meshes.size() + model.accessors.size() +
+                                model.bufferViews.size() + 1);
   for (const tinygltf::Node& node : model.nodes) json += kEscaped * node.name.size();
-  for (const tinygltf::Mesh& mesh : model.meshes) json += kObject + kEscaped * mesh.name.size();
   if (fits_glb(model.buffers.front().data.size(), json)) return;
   throw Error(ErrorCode::output,
               std::to_string(shapes) + " shapes and " + std::to_string(trees) +

@@ -20,8 +20,8 @@ tinygltf::Model to_gltf(const Mesh& mesh) {
   tinygltf::Model model = new_gltf_model();
   model.buffers.front().data.reserve(gltf_bytes(mesh));
   tinygltf::Node node;
-  node.name = "abstract shape";
-  node.mesh = add_mesh(model, mesh, "abstract shape");
+  node.name = kShapeName;
+  node.mesh = add_mesh(model, mesh);
   if (mesh.origin != Vec3d{}) {
     node.translation = {mesh.origin.x, mesh.origin.y, mesh.origin.z};
   }

@@ -66,7 +66,7 @@ tinygltf::Model new_gltf_model() {
   return model;
 }
 
-int add_mesh(tinygltf::Model& model, const Mesh& mesh, const std::string& name) {
+int add_mesh(tinygltf::Model& model, const Mesh& mesh) {
   tinygltf::Primitive primitive;
   primitive.mode = TINYGLTF_MODE_TRIANGLES;
   primitive.material = 0;
@@ -74,7 +74,7 @@ int add_mesh(tinygltf::Model& model, const Mesh& mesh, const std::string& name) 
   primitive.attributes["NORMAL"] = add_normals(model, mesh);
   primitive.indices = add_indices(model, mesh);
   model.meshes.emplace_back();
-  model.meshes.back().name = name;
+  model.meshes.back().name = kShapeName;
   model.meshes.back().primitives.push_back(std::move(primitive));
   return static_cast<int>(model.meshes.size()) - 1;
 }

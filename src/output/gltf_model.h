@@ -6,12 +6,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <ostream>
-#include <string>
 #include <vector>
 
 #include "leafhull/shape.h"
 
 namespace leafhull {
+
+/// What meshes are called, by which is_shape() knows them.
+inline constexpr const char* kShapeName = "abstract shape";
 
 /// A file with one buffer, one scene and one single-sided leaf-green material, and nothing in them.
 tinygltf::Model new_gltf_model();
@@ -47,7 +49,7 @@ int add_accessor(tinygltf::Model& model, const std::vector<Element>& elements, i
 
 /// Appends the triangles of the file's material; the node that holds them has to move them to
 /// Mesh::origin. @throws Error internal: a normal without direction.
-int add_mesh(tinygltf::Model& model, const Mesh& mesh, const std::string& name);
+int add_mesh(tinygltf::Model& model, const Mesh& mesh);
 
 /// Appends a root of the scene.
 int add_root(tinygltf::Model& model, tinygltf::Node node);
