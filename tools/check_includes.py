@@ -38,7 +38,7 @@ ROOMS = {
     "ranks": ((), ("mpi",)),
     "forest": (
         ("density", "device", "output", "pipeline", "surface", "text"),
-        ("json", "openvdb", "openssl", "tbb", "tinygltf"),
+        ("eigen", "json", "openvdb", "openssl", "tbb", "tinygltf"),
     ),
     "cli": (("text",), ("cli11", "json")),
     "bench": (

@@ -290,7 +290,7 @@ class Run {
   }
 
   [[noreturn]] void refuse_empty() {
-    store_->discard();
+    std::filesystem::remove_all(folder_ / "work");
     throw Error(ErrorCode::empty,
                 "the forest is empty: no tree reaches the threshold at this voxel size",
                 "Lower --threshold or --voxel-size, or enlarge --radius-max.");
