@@ -64,8 +64,15 @@ def measure(command: list[str], environment: Mapping[str, str]) -> tuple[float, 
         process.returncode = os.waitstatus_to_exitcode(status)
         if process.returncode != 0:
             log.seek(0)
-            raise Unavailable(f"status {process.returncode}: {log.read().strip()}")
+            raise Unavailable(f"status {process.returncode}: {complaint(log.read())}")
         return seconds, 1024 * usage.ru_maxrss
+
+
+def complaint(said: str) -> str:
+    """leafhull's own line out of what others, such as mpirun, say about it; else the last."""
+    lines = [line.strip() for line in said.splitlines() if line.strip()]
+    own = (line for line in lines if line.startswith("leafhull: "))
+    return next(own, lines[-1] if lines else "nothing said")
 
 
 class Contender:

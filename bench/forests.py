@@ -19,50 +19,60 @@ def cases(results: Results) -> list[str]:
     return [name for name in names if name.startswith(plan.CASE)]
 
 
+def asked(results: Results) -> bool:
+    """Whether it is a bench of forests."""
+    return results.about.get("forests", False)
+
+
 def series(results: Results, part: str) -> dict[int, float]:
     """A median of the canopies, by trees."""
-    counts = {
-        int(found[1]): case
-        for case in cases(results)
-        if (found := re.fullmatch(rf"{plan.CASE}-[a-z]+-(\d+)", case))
-    }
     medians = {
-        count: results.median(case, plan.CANOPY, part) for count, case in sorted(counts.items())
+        count: results.median(case, plan.CANOPY, part)
+        for count in plan.SERIES
+        for case in cases(results)
+        if re.fullmatch(rf"{plan.CASE}-[a-z]+-{count}", case)
     }
     return {count: median for count, median in medians.items() if median is not None}
+
+
+def whole_series(results: Results, part: str) -> dict[int, float]:
+    """Nothing where a member is missing: no target is met by fewer."""
+    medians = series(results, part)
+    return medians if set(medians) == set(plan.SERIES) else {}
 
 
 def label(count: int) -> str:
     return f"{count:,} trees"
 
 
-def rate(results: Results, count: int = plan.SERIES[-1]) -> Values:
-    """Millions of leaf vertices a second."""
+def rate(results: Results) -> Values:
+    """Millions of leaf vertices a second, of the largest canopy."""
+    count = plan.SERIES[-1]
     seconds = series(results, "total").get(count)
     vertices = series(results, "leaf_vertices").get(count)
     return {label(count): 1e-6 * vertices / seconds if seconds and vertices else None}
 
 
-def resident(results: Results, count: int = plan.SERIES[-1]) -> Values:
-    """GiB."""
+def resident(results: Results) -> Values:
+    """GiB, of the largest canopy."""
+    count = plan.SERIES[-1]
     peak = series(results, PEAK).get(count)
     return {label(count): peak and peak / 2**30}
 
 
 def departure(results: Results) -> Values:
-    part = slopes.departure_from_line(series(results, "total"))
+    part = slopes.departure_from_line(whole_series(results, "total"))
     return {"time": None if part is None else 100 * part}
 
 
 def growth(results: Results) -> Values:
     """Percent by which memory has grown since the fewest trees, beside what each may take."""
-    peaks = series(results, PEAK)
-    if not peaks:
-        return {}
-    few, *more = peaks
+    peaks = whole_series(results, PEAK)
+    few = plan.SERIES[0]
     return {
-        label(count): 100 * ((peaks[count] - PER_INSTANCE * (count - few)) / peaks[few] - 1)
-        for count in more
+        label(count): 100 * ((peak - PER_INSTANCE * (count - few)) / peaks[few] - 1)
+        for count, peak in peaks.items()
+        if count != few
     }
 
 
@@ -70,11 +80,13 @@ def ranks(results: Results) -> Values:
     return {
         case: results.ratio(case, plan.TWO_RANKS, plan.ONE_RANK, "total")
         for case in cases(results)
+        if case.endswith(f"-{plan.TWICE}")
     }
 
 
 def instances(results: Results) -> Values:
-    return {case: results.median(case, plan.INSTANCED, "total") for case in cases(results)}
+    case = plan.of_models(plan.MODELS, plan.INSTANCES).name
+    return {case: results.median(case, plan.INSTANCED, "total")}
 
 
 def row(results: Results, case: str, name: str) -> tuple[str, ...]:

@@ -16,7 +16,7 @@ def render(stem: Path) -> list[Path]:
     results = load(stem)
     page, picture = stem.with_suffix(".md"), stem.with_suffix(".svg")
     page.write_text(report.page(results))
-    if forests.cases(results):
+    if forests.asked(results):
         return [page]
     plot.write(results, picture)
     return [page, picture]

@@ -83,6 +83,7 @@ def main() -> None:
     results = Results(
         about={
             "date": day,
+            "forests": asked.forest,
             "machine": machine.describe(who.ROOT, who.LEAFHULL),
             "stand_ins": stand_ins,
             "absent": [],

@@ -123,7 +123,7 @@ def startup(results: Results, contender: str) -> Values:
 
 def targets(results: Results) -> list[Target]:
     """Of what was run: forests, or trees one by one."""
-    return of_forests(results) if forests.cases(results) else of_trees(results)
+    return of_forests(results) if forests.asked(results) else of_trees(results)
 
 
 def of_forests(results: Results) -> list[Target]:

@@ -16,7 +16,7 @@ import plan
 import report
 import targets
 from card_tree import LEAVES, card_tree
-from contender import Unavailable
+from contender import Unavailable, complaint
 from heat import Heat, Limits
 from records import Results
 from test_results import results_of
@@ -39,7 +39,8 @@ def canopies(seconds, peak):
 
 class TargetsTest(unittest.TestCase):
     def target(self, what, values):
-        return next(t for t in targets.targets(results_of(values)) if what in t.what)
+        found = targets.targets(results_of(values, {"forests": True}))
+        return next(t for t in found if what in t.what)
 
     def test_rate_and_memory_are_of_the_largest(self):
         values = canopies(lambda n: 20 * n / 1000, lambda n: (3 if n == 20_000 else 5) * 2**30)
@@ -76,6 +77,16 @@ class TargetsTest(unittest.TestCase):
         self.assertIs(self.target("2 ranks", values).met, True)
         self.assertIs(self.target("30 models", values).met, False)
         self.assertIsNone(self.target("departure", values).met)
+
+    def test_fewer_or_smaller_forests_meet_no_target(self):
+        values = canopies(lambda n: n, lambda n: MIB)
+        for part in ("total", "peak_memory_bytes"):
+            del values["forest-birch-20000", forest_plan.CANOPY, part]
+        values["forest-3-models-1000", forest_plan.INSTANCED, "total"] = [1]
+        for name in (forest_plan.ONE_RANK, forest_plan.TWO_RANKS):
+            values["forest-birch-200", name, "total"] = [1]
+        for target in targets.targets(results_of(values, {"forests": True})):
+            self.assertIsNone(target.met, target.what)
 
     def test_trees_one_by_one_have_targets_of_their_own(self):
         self.assertFalse(any("canopy" in t.what for t in targets.targets(results_of({}))))
@@ -151,6 +162,11 @@ class RunTest(unittest.TestCase):
         (absent,) = results.about["absent"]
         self.assertEqual(absent["reason"], "status 1: leafhull: the roof fell in")
 
+    def test_leafhulls_own_line_is_the_reason(self):
+        said = "leafhull: error: too little memory\n-----\nmpirun: a process has ended\n"
+        self.assertEqual(complaint(said), "leafhull: error: too little memory")
+        self.assertEqual(complaint("\nSegmentation fault\n"), "Segmentation fault")
+
     def test_ranks_are_started_by_mpirun(self):
         (_, two) = forest_plan.ranks(10)
         started = []
@@ -172,7 +188,7 @@ class RunTest(unittest.TestCase):
     def test_the_page_of_a_quick_bench(self):
         results = Results(
             about={"absent": [], "date": "2026-11-25", "machine": {"CPU": "Abacus"}}
-            | {"stand_ins": {}, "cases": {}}
+            | {"stand_ins": {}, "cases": {}, "forests": True}
         )
         for job in forest_plan.quick_jobs():
             chosen = [e for e in job.entrants if e.name != forest_plan.TWO_RANKS]
