@@ -10,20 +10,20 @@ using test::moved;
 
 class JsonScene : public testing::Test {
  protected:
-  void SetUp() override { folder_.tree("birch.glb"); }
+  void SetUp() override { folder.tree("birch.glb"); }
 
   Scene read(const std::string& text, const std::string& name = "scene.jsonl") {
-    return read_scene(folder_.write(name, text), {});
+    return read_scene(folder.write(name, text), {});
   }
   /// The one tree at (1, 2, 3) with these members.
   PlacedTree tree(const std::string& members) {
     return read(R"({"model": "birch.glb", "position": [1, 2, 3])" + members + "}\n").trees.at(0);
   }
   void refuse(const std::string& text, const std::string& message) {
-    expect_refused(folder_, folder_.write("scene.jsonl", text), message);
+    expect_refused(folder, folder.write("scene.jsonl", text), message);
   }
 
-  test::SceneFolder folder_;
+  test::SceneFolder folder;
 };
 
 TEST_F(JsonScene, ReadsEveryFormOfRotationAndScale) {
