@@ -55,7 +55,7 @@ TEST_F(JsonScene, SkipsAndCountsWhatCannotStand) {
   const Scene scene = read(R"({"model": "birch.glb", "position": [0, 0, 0]}
 {"model": "birch.glb", "position": [0, 0, null]}
 {"model": "birch.glb", "position": [0, 0, 0], "scale": NaN}
-{"model": "-Infinity \" NaN", "position": [0, 0, -Infinity]}
+{"model": "birch.glb", "position": [0, 0, -Infinity]}
 {"model": "birch.glb", "position": [0, 0, 0], "rotation": [0, 0, 0, 0]}
 {"model": "birch.glb", "position": [0, 0, 0], "rotation": null}
 {"model": "birch.glb", "position": [0, 0, 0], "scale": [1, 0, 1]}
@@ -64,6 +64,13 @@ TEST_F(JsonScene, SkipsAndCountsWhatCannotStand) {
   EXPECT_EQ(scene.skipped, 6u);
   ASSERT_EQ(scene.warnings.size(), 1u);
   EXPECT_NE(scene.warnings[0].find("6 trees were skipped, the first at line 2"), std::string::npos);
+}
+
+TEST_F(JsonScene, NamesOfNumbersAreTextWithinQuotes) {
+  folder.tree("-Infinity \"NaN.glb");
+  const Scene scene =
+      read(R"({"model": "-Infinity \"NaN.glb", "position": [0, 0, 0], "age": NaN})");
+  EXPECT_EQ(scene.models.at(0).name, "-Infinity \"NaN");
 }
 
 TEST_F(JsonScene, BadLinesAreNamed) {
