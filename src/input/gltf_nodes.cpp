@@ -139,7 +139,7 @@ void walk(const GltfFile& file, Visit&& visit) {
 }  // namespace
 
 std::string place_of(const PlacedMesh& placed) {
-  const std::string place = place_of("nodes", placed.node);
+  std::string place = place_of("nodes", placed.node);
   if (!placed.copy) return place;
   return place + ", EXT_mesh_gpu_instancing, copy " + std::to_string(*placed.copy);
 }

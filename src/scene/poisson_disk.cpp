@@ -33,9 +33,9 @@ class Grid {
     }
   }
 
-  /// Adds a point unless it is outside or too near to another.
+  /// Adds a point of the first quadrant unless it is outside or too near to another.
   bool add(Vec2d p, std::vector<Vec2d>& points) {
-    if (!(p.x >= 0 && p.x < area_.x && p.y >= 0 && p.y < area_.y)) return false;
+    if (p.x >= area_.x || p.y >= area_.y) return false;
     const std::int64_t cell = cell_of(p.y) * columns_ + cell_of(p.x);
     for (const std::int64_t offset : reach_) {
       const std::uint32_t other = points_[static_cast<std::size_t>(cell + offset)];

@@ -11,18 +11,18 @@ using test::moved;
 class CsvScene : public testing::Test {
  protected:
   void SetUp() override {
-    folder_.tree("birch.glb");
-    folder_.tree("ash.glb");
+    folder.tree("birch.glb");
+    folder.tree("ash.glb");
   }
 
   Scene read(const std::string& text, const std::string& name = "scene.csv") {
-    return read_scene(folder_.write(name, text), {});
+    return read_scene(folder.write(name, text), {});
   }
   void refuse(const std::string& text, const std::string& message) {
-    expect_refused(folder_, folder_.write("scene.csv", text), message);
+    expect_refused(folder, folder.write("scene.csv", text), message);
   }
 
-  test::SceneFolder folder_;
+  test::SceneFolder folder;
 };
 
 TEST_F(CsvScene, NamesModelsAndPlaces) {
@@ -30,7 +30,7 @@ TEST_F(CsvScene, NamesModelsAndPlaces) {
   ASSERT_EQ(scene.models.size(), 2u);
   EXPECT_EQ(scene.models[0].name, "birch");
   EXPECT_EQ(scene.models[1].name, "ash");
-  EXPECT_EQ(scene.models[1].file, folder_ / "ash.glb");
+  EXPECT_EQ(scene.models[1].file, folder / "ash.glb");
   EXPECT_EQ(scene.models[0].meshes, nullptr);
   ASSERT_EQ(scene.trees.size(), 3u);
   EXPECT_EQ(scene.trees[1].position, Vec3d(-4.5, 0, 1000));
@@ -88,7 +88,7 @@ TEST_F(CsvScene, WithoutNamesTheCountTells) {
 }
 
 TEST_F(CsvScene, TextIsTakenAsProgramsWriteIt) {
-  folder_.tree("a, \"b\".glb");
+  folder.tree("a, \"b\".glb");
   const Scene scene = read(
       "\xEF\xBB\xBF# made by hand\r\n\r\nmodel, x ,y,z,\"scale\"\r\n  # a, \"comment\r\n"
       "\"a, \"\"b\"\".glb\" , +1 ,2,\"3\",1\r\n   \t\r\nbirch.glb,4,5,6,1");
@@ -107,10 +107,10 @@ TEST_F(CsvScene, UnknownColumnsArePassedOverWithOneWarning) {
 }
 
 TEST_F(CsvScene, OneFileIsOneModelHoweverItIsSpelled) {
-  folder_.tree("far/birch.glb");
-  std::filesystem::create_symlink(folder_ / "birch.glb", folder_ / "same.glb");
+  folder.tree("far/birch.glb");
+  std::filesystem::create_symlink(folder / "birch.glb", folder / "same.glb");
   const Scene scene = read("birch.glb,0,0,0\n./far/../birch.glb,0,0,0\nsame.glb,0,0,0\n" +
-                           (folder_ / "birch.glb").string() + ",0,0,0\nfar/birch.glb,0,0,0\n");
+                           (folder / "birch.glb").string() + ",0,0,0\nfar/birch.glb,0,0,0\n");
   ASSERT_EQ(scene.models.size(), 2u);
   EXPECT_EQ(scene.models[0].name, "birch");
   EXPECT_EQ(scene.models[1].name, "birch-2");
@@ -119,8 +119,8 @@ TEST_F(CsvScene, OneFileIsOneModelHoweverItIsSpelled) {
 }
 
 TEST_F(CsvScene, NamesStayApartFromThoseMadeUp) {
-  folder_.tree("a/birch.glb");
-  folder_.tree("birch-2.glb");
+  folder.tree("a/birch.glb");
+  folder.tree("birch-2.glb");
   const Scene scene = read("birch-2.glb,0,0,0\nbirch.glb,0,0,0\na/birch.glb,0,0,0\n");
   ASSERT_EQ(scene.models.size(), 3u);
   EXPECT_EQ(scene.models[2].name, "birch-3");
@@ -195,11 +195,11 @@ TEST_F(CsvScene, BadColumnsAreNamed) {
 }
 
 TEST_F(CsvScene, OtherFilesAreNoScenes) {
-  expect_refused(folder_, folder_ / "none.csv",
+  expect_refused(folder, folder / "none.csv",
                  "none.csv: cannot be read: No such file or directory");
-  std::filesystem::create_directory(folder_ / "folder.csv");
-  expect_refused(folder_, folder_ / "folder.csv", "folder.csv: cannot be read: Is a directory");
-  expect_refused(folder_, folder_.write("tree.obj", "v 0 0 0\n"), "tree.obj is not a scene");
+  std::filesystem::create_directory(folder / "folder.csv");
+  expect_refused(folder, folder / "folder.csv", "folder.csv: cannot be read: Is a directory");
+  expect_refused(folder, folder.write("tree.obj", "v 0 0 0\n"), "tree.obj is not a scene");
   EXPECT_EQ(read("birch.glb,1,2,3\n", "SCENE.CSV").trees.size(), 1u);
 }
 

@@ -10,20 +10,20 @@ using test::moved;
 
 class JsonScene : public testing::Test {
  protected:
-  void SetUp() override { folder_.tree("birch.glb"); }
+  void SetUp() override { folder.tree("birch.glb"); }
 
   Scene read(const std::string& text, const std::string& name = "scene.jsonl") {
-    return read_scene(folder_.write(name, text), {});
+    return read_scene(folder.write(name, text), {});
   }
   /// The one tree at (1, 2, 3) with these members.
   PlacedTree tree(const std::string& members) {
     return read(R"({"model": "birch.glb", "position": [1, 2, 3])" + members + "}\n").trees.at(0);
   }
   void refuse(const std::string& text, const std::string& message) {
-    expect_refused(folder_, folder_.write("scene.jsonl", text), message);
+    expect_refused(folder, folder.write("scene.jsonl", text), message);
   }
 
-  test::SceneFolder folder_;
+  test::SceneFolder folder;
 };
 
 TEST_F(JsonScene, ReadsEveryFormOfRotationAndScale) {
@@ -55,7 +55,7 @@ TEST_F(JsonScene, SkipsAndCountsWhatCannotStand) {
   const Scene scene = read(R"({"model": "birch.glb", "position": [0, 0, 0]}
 {"model": "birch.glb", "position": [0, 0, null]}
 {"model": "birch.glb", "position": [0, 0, 0], "scale": NaN}
-{"model": "-Infinity \" NaN", "position": [0, 0, -Infinity]}
+{"model": "birch.glb", "position": [0, 0, -Infinity]}
 {"model": "birch.glb", "position": [0, 0, 0], "rotation": [0, 0, 0, 0]}
 {"model": "birch.glb", "position": [0, 0, 0], "rotation": null}
 {"model": "birch.glb", "position": [0, 0, 0], "scale": [1, 0, 1]}
@@ -64,6 +64,13 @@ TEST_F(JsonScene, SkipsAndCountsWhatCannotStand) {
   EXPECT_EQ(scene.skipped, 6u);
   ASSERT_EQ(scene.warnings.size(), 1u);
   EXPECT_NE(scene.warnings[0].find("6 trees were skipped, the first at line 2"), std::string::npos);
+}
+
+TEST_F(JsonScene, NamesOfNumbersAreTextWithinQuotes) {
+  folder.tree("-Infinity \"NaN.glb");
+  const Scene scene =
+      read(R"({"model": "-Infinity \"NaN.glb", "position": [0, 0, 0], "age": NaN})");
+  EXPECT_EQ(scene.models.at(0).name, "-Infinity \"NaN");
 }
 
 TEST_F(JsonScene, BadLinesAreNamed) {

@@ -80,35 +80,35 @@ TEST(RandomNumbers, AreThoseOfTheStandardsEngine) {
 class Scatter : public testing::Test {
  protected:
   void SetUp() override {
-    options_.trees = {folder_.tree("birch.glb", 8), folder_.tree("ash.glb", 16)};
-    options_.count = 1000;
+    options.trees = {folder.tree("birch.glb", 8), folder.tree("ash.glb", 16)};
+    options.count = 1000;
   }
 
   Scene scatter(const std::string& name = "scene.csv") {
-    write_scatter(options_, folder_ / name);
-    return read_scene(folder_ / name, {});
+    write_scatter(options, folder / name);
+    return read_scene(folder / name, {});
   }
 
   void refuse(ErrorCode code, const std::string& words) {
     try {
-      write_scatter(options_, folder_ / "bad.csv");
+      write_scatter(options, folder / "bad.csv");
       ADD_FAILURE() << "expected: " << words;
     } catch (const Error& error) {
       EXPECT_EQ(error.code(), code);
       EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();
       EXPECT_FALSE(error.remedy().empty());
     }
-    EXPECT_FALSE(std::filesystem::exists(folder_ / "bad.csv"));
+    EXPECT_FALSE(std::filesystem::exists(folder / "bad.csv"));
   }
 
-  test::SceneFolder folder_;
-  ScatterOptions options_;
+  test::SceneFolder folder;
+  ScatterOptions options;
 };
 
 TEST_F(Scatter, IsReadAgain) {
-  options_.area = Vec2d{200, 100};
+  options.area = Vec2d{200, 100};
   const Scene scene = scatter();
-  EXPECT_EQ(folder_.read("scene.csv").substr(0, 22), "model,x,y,z,yaw,scale\n");
+  EXPECT_EQ(folder.read("scene.csv").substr(0, 22), "model,x,y,z,yaw,scale\n");
   ASSERT_EQ(scene.trees.size(), 1000u);
   ASSERT_EQ(scene.models.size(), 2u);
   EXPECT_TRUE(scene.warnings.empty());
@@ -139,17 +139,17 @@ TEST_F(Scatter, YawsGoAllTheWayAround) {
 TEST_F(Scatter, TheSameOptionsGiveTheSameBytes) {
   scatter("first.csv");
   scatter("again.csv");
-  options_.seed = 2;
+  options.seed = 2;
   scatter("other.csv");
-  EXPECT_EQ(folder_.read("first.csv"), folder_.read("again.csv"));
-  EXPECT_NE(folder_.read("first.csv"), folder_.read("other.csv"));
+  EXPECT_EQ(folder.read("first.csv"), folder.read("again.csv"));
+  EXPECT_NE(folder.read("first.csv"), folder.read("other.csv"));
 }
 
 TEST_F(Scatter, SpacingIsInCrownWidths) {
   // Crowns are 15 and 31 wide along x and flat along z: 11.5 in the mean.
-  options_.count = 2500;
-  options_.spacing = 0.5;
-  options_.scale_low = 1, options_.scale_high = 3;
+  options.count = 2500;
+  options.spacing = 0.5;
+  options.scale_low = 1, options.scale_high = 3;
   Box box;
   for (const PlacedTree& tree : scatter().trees) box.include(tree.position);
   EXPECT_NEAR(box.size().x, 0.5 * 11.5 * 2 * 50, 12);
@@ -157,54 +157,54 @@ TEST_F(Scatter, SpacingIsInCrownWidths) {
 }
 
 TEST_F(Scatter, ScaleOfOneValueIsKept) {
-  options_.scale_low = options_.scale_high = 0.123456789;
+  options.scale_low = options.scale_high = 0.123456789;
   EXPECT_EQ(scatter().trees[5].linear[4], 0.123456789f);
 }
 
 TEST_F(Scatter, SmallForestsKeepTheirDigits) {
-  options_.area = Vec2d{2e-6, 1e-6};
-  options_.scale_low = 1e-7, options_.scale_high = 2e-7;
+  options.area = Vec2d{2e-6, 1e-6};
+  options.scale_low = 1e-7, options.scale_high = 2e-7;
   const Scene scene = scatter();
   EXPECT_EQ(scene.trees.size(), 1000u);
   EXPECT_GT(least_distance(places(scene)), 0.7 * std::sqrt(2e-15));
 }
 
 TEST_F(Scatter, NamesTreesFromTheFileThatNamesThem) {
-  options_.trees = {folder_.tree("trees/a, b.glb"), folder_.tree("deep/er/oak.glb")};
-  std::filesystem::create_directory(folder_ / "scenes");
-  std::filesystem::create_directory_symlink(folder_ / "deep" / "er", folder_ / "link");
+  options.trees = {folder.tree("trees/a, b.glb"), folder.tree("deep/er/oak.glb")};
+  std::filesystem::create_directory(folder / "scenes");
+  std::filesystem::create_directory_symlink(folder / "deep" / "er", folder / "link");
   const Scene scene = scatter("scenes/forest.csv");
   EXPECT_EQ(scene.models.size(), 2u);
-  EXPECT_NE(folder_.read("scenes/forest.csv").find("\n\"../trees/a, b.glb\","), std::string::npos);
-  EXPECT_NE(folder_.read("scenes/forest.csv").find("\n../deep/er/oak.glb,"), std::string::npos);
+  EXPECT_NE(folder.read("scenes/forest.csv").find("\n\"../trees/a, b.glb\","), std::string::npos);
+  EXPECT_NE(folder.read("scenes/forest.csv").find("\n../deep/er/oak.glb,"), std::string::npos);
   EXPECT_EQ(scatter("link/forest.csv").models.size(), 2u);
-  EXPECT_NE(folder_.read("link/forest.csv").find("\noak.glb,"), std::string::npos);
+  EXPECT_NE(folder.read("link/forest.csv").find("\noak.glb,"), std::string::npos);
 }
 
 TEST_F(Scatter, HeightsAreBetweenThePixels) {
   // Black on the left, white on the right, the lower row half as bright.
   const std::vector<std::uint8_t> pixels{0, 0, 0, 255, 254, 254, 254, 255,
                                          0, 0, 0, 255, 127, 127, 127, 255};
-  options_.ground = {folder_.write("hills.png", test::png(2, 2, pixels)), 100};
-  options_.area = Vec2d{40, 20};
+  options.ground = {folder.write("hills.png", test::png(2, 2, pixels)), 100};
+  options.area = Vec2d{40, 20};
   for (const PlacedTree& tree : scatter().trees) {
     const double right = tree.position.x / 40 + 0.5, down = tree.position.z / 20 + 0.5;
     EXPECT_NEAR(tree.position.y, 100 * right * (254 - 127 * down) / 255, 1e-3);
   }
-  options_.ground->height = -7;
+  options.ground->height = -7;
   for (const PlacedTree& tree : scatter().trees) EXPECT_LE(tree.position.y, 0);
 }
 
 TEST_F(Scatter, ReplacesAFileThatIsThere) {
-  folder_.write("scene.csv", std::string(100'000, 'x'));
+  folder.write("scene.csv", std::string(100'000, 'x'));
   EXPECT_EQ(scatter().trees.size(), 1000u);
 }
 
 TEST_F(Scatter, ValuesOutOfRangeAreRefused) {
-  const ScatterOptions good = options_;
+  const ScatterOptions good = options;
   const auto refuse_with = [&](auto change, const std::string& words) {
-    options_ = good;
-    change(options_);
+    options = good;
+    change(options);
     refuse(ErrorCode::usage, words);
   };
   const double nan = std::numeric_limits<double>::quiet_NaN();
@@ -222,27 +222,27 @@ TEST_F(Scatter, ValuesOutOfRangeAreRefused) {
 }
 
 TEST_F(Scatter, BadFilesAreRefused) {
-  options_.ground = {folder_ / "none.png", 1};
+  options.ground = {folder / "none.png", 1};
   refuse(ErrorCode::input, "none.png cannot be read: No such file or directory");
-  options_.ground->picture = folder_.write("text.png", std::string("hills"));
+  options.ground->picture = folder.write("text.png", std::string("hills"));
   refuse(ErrorCode::input, "text.png is not a PNG picture");
-  options_.ground->picture = folder_.write("cut.png", std::string("\x89PNG\r\n\x1A\n"));
+  options.ground->picture = folder.write("cut.png", std::string("\x89PNG\r\n\x1A\n"));
   refuse(ErrorCode::input, "cut.png is damaged");
-  options_.ground.reset();
-  options_.trees.push_back(folder_ / "oak.glb");
+  options.ground.reset();
+  options.trees.push_back(folder / "oak.glb");
   refuse(ErrorCode::input, "oak.glb: cannot be read: No such file or directory");
   test::GlbBuilder bare;
   bare.add_node("", bare.add_mesh("trunk", {test::square(bare.add_material("bark"))}));
-  options_.trees = {folder_.write("bare.glb", bare.glb())};
-  options_.area = Vec2d{10, 10};
+  options.trees = {folder.write("bare.glb", bare.glb())};
+  options.area = Vec2d{10, 10};
   refuse(ErrorCode::input, "no leaves in");
 }
 
 TEST_F(Scatter, TheOutputIsCheckedFirst) {
-  options_.trees = {folder_ / "missing.glb"};
-  EXPECT_THROW(write_scatter(options_, folder_ / "scene.txt"), Error);
+  options.trees = {folder / "missing.glb"};
+  EXPECT_THROW(write_scatter(options, folder / "scene.txt"), Error);
   try {
-    write_scatter(options_, folder_ / "nowhere" / "scene.csv");
+    write_scatter(options, folder / "nowhere" / "scene.csv");
     FAIL();
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ErrorCode::output);
