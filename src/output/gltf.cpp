@@ -9,7 +9,7 @@
 namespace leafhull {
 namespace {
 
-tinygltf::Model to_gltf(const Mesh& mesh) {
+tinygltf::Model to_gltf(const Mesh& mesh, Normals normals = Normals::any_length) {
   constexpr std::size_t kRoomForJson = 1 << 16;
   if (!fits_glb(gltf_bytes(mesh), kRoomForJson)) {
     throw Error(ErrorCode::output,
@@ -21,7 +21,7 @@ tinygltf::Model to_gltf(const Mesh& mesh) {
   model.buffers.front().data.reserve(gltf_bytes(mesh));
   tinygltf::Node node;
   node.name = kShapeName;
-  node.mesh = add_mesh(model, mesh);
+  node.mesh = add_mesh(model, mesh, normals);
   if (mesh.origin != Vec3d{}) {
     node.translation = {mesh.origin.x, mesh.origin.y, mesh.origin.z};
   }
@@ -32,6 +32,10 @@ tinygltf::Model to_gltf(const Mesh& mesh) {
 }  // namespace
 
 void write_glb(const Mesh& mesh, std::ostream& stream) { write_glb(to_gltf(mesh), stream); }
+
+void write_glb_again(const Mesh& mesh, std::ostream& stream) {
+  write_glb(to_gltf(mesh, Normals::unit), stream);
+}
 
 void write_gltf(const Mesh& mesh, std::ostream& stream) {
   const tinygltf::Model model = to_gltf(mesh);

@@ -22,9 +22,11 @@ int add_positions(tinygltf::Model& model, const Mesh& mesh) {
   return index;
 }
 
-int add_normals(tinygltf::Model& model, const Mesh& mesh) {
-  std::vector<Vec3f> normals(mesh.normals.size());
-  for (std::size_t i = 0; i < normals.size(); ++i) normals[i] = unit_normal(mesh, i);
+int add_normals(tinygltf::Model& model, const Mesh& mesh, Normals given) {
+  std::vector<Vec3f> normals = mesh.normals;
+  if (given == Normals::any_length) {
+    for (std::size_t i = 0; i < normals.size(); ++i) normals[i] = unit_normal(mesh, i);
+  }
   return add_accessor(model, normals, TINYGLTF_TARGET_ARRAY_BUFFER, TINYGLTF_COMPONENT_TYPE_FLOAT,
                       TINYGLTF_TYPE_VEC3);
 }
@@ -67,12 +69,12 @@ tinygltf::Model new_gltf_model() {
   return model;
 }
 
-int add_mesh(tinygltf::Model& model, const Mesh& mesh) {
+int add_mesh(tinygltf::Model& model, const Mesh& mesh, Normals normals) {
   tinygltf::Primitive primitive;
   primitive.mode = TINYGLTF_MODE_TRIANGLES;
   primitive.material = 0;
   primitive.attributes["POSITION"] = add_positions(model, mesh);
-  primitive.attributes["NORMAL"] = add_normals(model, mesh);
+  primitive.attributes["NORMAL"] = add_normals(model, mesh, normals);
   primitive.indices = add_indices(model, mesh);
   model.meshes.emplace_back();
   model.meshes.back().name = kShapeName;

@@ -45,9 +45,11 @@ int add_accessor(tinygltf::Model& model, const std::vector<Element>& elements, i
   return static_cast<int>(model.accessors.size()) - 1;
 }
 
+enum class Normals { any_length, unit };  ///< of a mesh; unit ones stay bit for bit
+
 /// Appends the triangles of the file's material; the node that holds them has to move them to
 /// Mesh::origin. @throws Error internal: a normal without direction.
-int add_mesh(tinygltf::Model& model, const Mesh& mesh);
+int add_mesh(tinygltf::Model& model, const Mesh& mesh, Normals normals = Normals::any_length);
 
 /// Appends a root of the scene.
 int add_root(tinygltf::Model& model, tinygltf::Node node);
