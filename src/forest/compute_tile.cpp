@@ -5,9 +5,9 @@
 #include <utility>
 
 #include "density/control.h"
+#include "forest/finish_tile.h"
 #include "forest/gather.h"
 #include "forest/plan.h"
-#include "forest/finish_tile.h"
 #include "pipeline/evaluate.h"
 #include "surface/brick_mesher.h"
 

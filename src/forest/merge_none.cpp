@@ -83,8 +83,11 @@ ForestSummary merge_none(const Scene& scene, const ForestOptions& options, Devic
       });
       finish_store(store, {}, {{kFile, file}});
     }
+    summary.was_finished = store.finished();
+    for (const std::string& warning : store.warnings()) summary.warnings.push_back(warning);
   }
   ranks.barrier();
+  summary.peak_memory_bytes = peak_memory();
   summary.seconds = watch.finish();
   return summary;
 }

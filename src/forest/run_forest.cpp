@@ -200,11 +200,8 @@ class Run {
     store_.emplace(folder_, identity_, writer, options_.resume || joins,
                    options_.restart && !joins);
     if (ranks_.rank() == 0) ranks_.barrier();
-    if (store_->finished()) {
-      count_tiles();
-      return false;
-    }
-    return true;
+    summary_.was_finished = store_->finished();
+    return !summary_.was_finished;
   }
 
   void control() {
@@ -255,6 +252,18 @@ class Run {
     summary_.tiles = forest_.tiles().size();
     for (const auto& [id, record] : store_->done()) {
       summary_.empty += record.triangles == 0;
+      summary_.rows.push_back({.level = id.level,
+                               .x = id.at.x,
+                               .y = id.at.y,
+                               .z = id.at.z,
+                               .leaf_vertices = record.leaf_vertices,
+                               .gathered = record.gathered,
+                               .evaluated_voxels = record.evaluated_voxels,
+                               .vertices = record.vertices,
+                               .triangles = record.triangles,
+                               .seconds = record.seconds,
+                               .resident_bytes = record.resident_bytes,
+                               .rank = record.rank});
     }
     summary_.remaining = summary_.tiles - std::min(summary_.tiles, store_->done().size());
   }
@@ -299,6 +308,17 @@ class Run {
   ForestSummary summary() {
     summary_.trees = scene_.trees.size();
     summary_.skipped = scene_.skipped;
+    for (const ForestLevel& level : forest_.levels) {
+      summary_.levels.push_back({.level = level.level,
+                                 .voxel_size = level.voxel_size,
+                                 .threshold = level.threshold,
+                                 .error = level.error});
+    }
+    for (const std::string& warning : store_->warnings()) summary_.warnings.push_back(warning);
+    for (const std::string& peak : ranks_.all(std::to_string(peak_memory()))) {
+      summary_.peak_memory_bytes =
+          std::max<std::uint64_t>(summary_.peak_memory_bytes, std::stoull(peak));
+    }
     summary_.seconds = watch_.finish();
     return std::move(summary_);
   }
@@ -323,14 +343,13 @@ class Run {
 
 ForestSummary run_forest(const Scene& scene, const ForestOptions& options, Device& device,
                          Ranks& ranks, const std::filesystem::path& folder,
-                         const RunDescription& run, const ForestProgressVisitor& progress) {
+                         const ForestProgressVisitor& progress) {
   check(options);
   check_output_folder(folder);
   const ThreadLimit limit(device);
   if (options.merge == Merge::none) {
     return merge_none(scene, options, device, ranks, folder, progress);
   }
-  (void)run;
   return Run(scene, options, device, ranks, folder, progress).canopy();
 }
 
