@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // A forest from its scene to the folder that holds it.
 #include <algorithm>
-#include <cmath>
+#include <chrono>
+#include <future>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -99,30 +101,6 @@ struct Forest {
     return compute_tile(scene, levels[l], {id(work), edge, plans[l].trees(work.tile)}, device);
   }
 };
-
-Box bounds_of(const Mesh& mesh) {
-  Box box;
-  for (const Vec3f p : mesh.positions) box.include(mesh.origin + Vec3d(p));
-  return box;
-}
-
-TileRecord record_of_surface(const TileId& id, const TileSurface& surface, double seconds,
-                             int rank) {
-  TileRecord record;
-  record.id = id;
-  record.vertices = surface.mesh.positions.size();
-  record.triangles = surface.mesh.triangles.size();
-  record.own_vertices = surface.own_vertices;
-  record.bounds = bounds_of(surface.mesh);
-  record.leaf_vertices = surface.leaf_vertices;
-  record.gathered = surface.gathered;
-  record.evaluated_voxels = surface.evaluated_voxels;
-  record.dropped_components = surface.dropped_components;
-  record.seconds = seconds;
-  record.resident_bytes = resident_memory();
-  record.rank = rank;
-  return record;
-}
 
 class Run {
  public:
@@ -236,15 +214,25 @@ class Run {
     const std::vector<Work> work = work_to_do();
     summary_.resumed = all_ - work.size();
     ranks_.reset();
+    std::future<void> writing;  // of the tile before, while the next is computed
     for (std::uint64_t i = ranks_.next(); i < work.size(); i = ranks_.next()) {
       tell("tiles", summary_.resumed + i, all_);
       const auto start = std::chrono::steady_clock::now();
-      const TileSurface surface = forest_.compute(work[i], device_);
+      TileSurface surface = forest_.compute(work[i], device_);
       const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
-      store_->put(surface,
-                  record_of_surface(forest_.id(work[i]), surface, elapsed.count(), ranks_.rank()));
       leaf_vertices_ += surface.leaf_vertices;
+      TileRecord record;
+      record.id = forest_.id(work[i]);
+      record.seconds = elapsed.count();
+      record.resident_bytes = resident_memory();
+      record.rank = ranks_.rank();
+      if (writing.valid()) writing.get();
+      writing = std::async(std::launch::async,
+                           [this, surface = std::move(surface), record = std::move(record)] {
+                             store_->put(surface, record);
+                           });
     }
+    if (writing.valid()) writing.get();
     tell("tiles", all_, all_);
   }
 
