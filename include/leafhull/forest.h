@@ -35,7 +35,7 @@ struct ForestOptions {
   Options shape;  ///< as of an extraction; a resolution counts along the largest tree
   Merge merge = Merge::canopy;
   ControlScope control_scope = ControlScope::model;
-  int levels = 1;                                 ///< of abstraction, 1 to 16
+  int levels = 1;                                 ///< of abstraction, 1 to 8
   std::uint64_t memory = std::uint64_t{4} << 30;  ///< bytes that a rank may hold
   std::optional<int> tile;  ///< voxels along a tile's edge, a multiple of 32 up to 512; empty: 128,
                             ///< or less where the memory asks for it
