@@ -34,11 +34,11 @@ ROOMS = {
         ),
         ("tbb",),
     ),
-    "scene": (("text",), ("json", "stb")),
+    "scene": (("input", "text"), ("json", "stb")),
     "ranks": ((), ("mpi",)),
     "forest": (
         ("density", "device", "output", "pipeline", "surface", "text"),
-        ("json", "openvdb", "openssl", "tbb", "tinygltf"),
+        ("eigen", "json", "openvdb", "openssl", "tbb", "tinygltf"),
     ),
     "cli": (("text",), ("cli11", "json")),
     "bench": (

@@ -66,6 +66,13 @@ struct TileRow {
   int rank = 0;
 };
 
+/// A level of abstraction as it came out.
+struct LevelRow {
+  int level = 0;
+  double voxel_size = 0, threshold = 0;  ///< h, T
+  double error = 0;  ///< how far its surface may be from that of level 0, scene units
+};
+
 /// What a run did.
 struct ForestSummary {
   std::size_t trees = 0, models = 0, skipped = 0;
@@ -73,9 +80,11 @@ struct ForestSummary {
   std::size_t remaining = 0;                      ///< tiles that other ranges have still to do
   std::uint64_t leaf_vertices = 0;                ///< of all trees
   std::uint64_t mesh_vertices = 0, mesh_triangles = 0;
-  std::uint64_t peak_memory_bytes = 0;
+  std::uint64_t peak_memory_bytes = 0;  ///< of the largest rank
   std::vector<StageTime> seconds;
+  std::vector<LevelRow> levels;
   std::vector<TileRow> rows;  ///< of all ranks, by tile
+  bool was_finished = false;  ///< by an earlier run: nothing was to do
   std::vector<std::string> warnings;
 };
 
@@ -88,7 +97,7 @@ struct ForestSummary {
 ///         empty: no tree has a surface; output; device.
 ForestSummary run_forest(const Scene& scene, const ForestOptions& options, Device& device,
                          Ranks& ranks, const std::filesystem::path& folder,
-                         const RunDescription& run, const ForestProgressVisitor& progress = {});
+                         const ForestProgressVisitor& progress = {});
 
 /// The report as one JSON object, schema "leafhull-forest-report/1".
 std::string forest_report_json(const ForestSummary& summary, const ForestOptions& options,

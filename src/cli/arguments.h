@@ -13,6 +13,7 @@
 #include "leafhull/options.h"
 #include "leafhull/output.h"
 #include "leafhull/render.h"
+#include "leafhull/scene.h"
 #include "leafhull/sweep.h"
 
 namespace leafhull::cli {
@@ -44,6 +45,11 @@ struct Arguments {
   std::optional<bool> is_shape;
   bool figure17 = false;
 
+  // scatter
+  ScatterOptions scatter;
+  std::filesystem::path scatter_file;
+
+  // forest
   ForestOptions forest;
 
   // study

@@ -121,6 +121,11 @@ std::string tiles_in_words(const ForestSummary& summary) {
 
 void say_summary(Console& console, const ForestSummary& summary, const Arguments& arguments,
                  std::uint64_t leaf_vertices, double elapsed) {
+  if (summary.was_finished) {
+    console.say("leafhull: " + arguments.folder.string() +
+                " holds this forest, finished: nothing was to do");
+    return;
+  }
   for (const StageTime& time : summary.seconds) {
     std::string stage = time.stage;
     stage.resize(std::max<std::size_t>(stage.size(), 18), ' ');
@@ -177,19 +182,21 @@ void make_forest(const Arguments& arguments, Ranks& ranks) {
 
   std::uint64_t leaf_vertices = 0;
   const ForestSummary summary =
-      run_forest(scene, options, device, ranks, arguments.folder,
-                 {arguments.tree.string(), arguments.command}, [&](const ForestProgress& now) {
-                   leaf_vertices = now.leaf_vertices;
-                   if (now.tiles == 0) return console.progress(now.stage, 0);
-                   words.set_tiles(now.tiles);
-                   console.progress(now.stage, now.tiles_done, now.tiles,
-                                    per_second(static_cast<double>(leaf_vertices), since(start)) +
-                                        ", " + bytes(now.resident_bytes));
-                 });
+      run_forest(scene, options, device, ranks, arguments.folder, [&](const ForestProgress& now) {
+        leaf_vertices = now.leaf_vertices;
+        if (now.tiles == 0) return console.progress(now.stage, 0);
+        words.set_tiles(now.tiles);
+        console.progress(now.stage, now.tiles_done, now.tiles,
+                         per_second(static_cast<double>(leaf_vertices), since(start)) + ", " +
+                             bytes(now.resident_bytes));
+      });
   if (!speaks) return;
   for (const std::string& warning : summary.warnings) console.warn(warning);
   write_report(summary, arguments, options);
-  say_summary(console, summary, arguments, leaf_vertices, since(start));
+  // Of several ranks, and of a run that did all, the trees' own count.
+  const bool did_all = summary.resumed == 0 && summary.remaining == 0;
+  say_summary(console, summary, arguments, did_all ? summary.leaf_vertices : leaf_vertices,
+              since(start));
 }
 
 /// On several ranks one that fails ends the others, which do not know of it.

@@ -28,6 +28,7 @@ Verb suggest_verb();
 Verb study_verb();
 Verb render_verb();
 Verb forest_verb();
+Verb scatter_verb();
 Verb devices_verb();
 Verb help_options_verb();
 Verb help_forests_verb();

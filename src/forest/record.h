@@ -21,7 +21,8 @@ struct TileRecord {
   FileRecord mesh;  ///< none where the tile holds no surface
   FileRecord seam;
   std::uint64_t vertices = 0, triangles = 0, own_vertices = 0;
-  Box bounds;  ///< of the mesh, scene units
+  Vec3d origin;  ///< of the mesh
+  Box bounds;    ///< of the mesh, scene units
   std::uint64_t leaf_vertices = 0, gathered = 0, evaluated_voxels = 0, dropped_components = 0;
   // Of the run alone, not of the result.
   double seconds = 0;

@@ -50,6 +50,17 @@ Json rows(const std::vector<TileRow>& tiles) {
   return array;
 }
 
+Json levels(const std::vector<LevelRow>& levels) {
+  Json array = Json::array();
+  for (const LevelRow& level : levels) {
+    array.push_back({{"level", level.level},
+                     {"voxel_size", level.voxel_size},
+                     {"threshold", level.threshold},
+                     {"error", level.error}});
+  }
+  return array;
+}
+
 }  // namespace
 
 std::string forest_report_json(const ForestSummary& summary, const ForestOptions& options,
@@ -68,6 +79,7 @@ std::string forest_report_json(const ForestSummary& summary, const ForestOptions
                        {"options", options_of(options)},
                        {"scene", scene},
                        {"counts", counts},
+                       {"levels", levels(summary.levels)},
                        {"resumed", summary.resumed},
                        {"remaining", summary.remaining},
                        {"seconds", seconds_object(summary.seconds)},

@@ -2,12 +2,15 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
+#include <ostream>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "forest/record.h"
@@ -21,36 +24,52 @@ namespace leafhull {
 class Store {
  public:
   /// Opens the folder, which is made where it is missing. Many processes may open one store, each
-  /// as another `writer`, which names its journal.
-  /// @param plan   what the result depends on; any difference makes it another forest.
-  /// @throws Error usage: the folder holds another forest (what differs), or an unfinished one
-  ///         without `resume`, or files from elsewhere; a journal that is damaged, or that another
-  ///         process writes; output: it cannot be made or written to.
+  /// as another `writer`, which names its journal: letters, digits, "-" and "_". Of the ranks of a
+  /// run, one opens it as it was asked to, then the others with `resume`, as a range does always.
+  /// @param plan    what the result depends on; any difference makes it another forest.
+  /// @param resume  goes on where tiles are done; without it there may be none.
+  /// @param restart removes a forest that is there, and nothing else. One that was cut off in it is
+  ///                removed without it too.
+  /// @throws Error usage: the folder holds another forest (what differs), or an unfinished or a
+  ///         finished one without `resume`, or files from elsewhere; a journal that another process
+  ///         writes; input: a plan, a journal or a manifest that is damaged or of another program,
+  ///         or a finished forest that lacks a file; output: it cannot be made or written to.
   Store(const std::filesystem::path& folder, const nlohmann::ordered_json& plan,
         const std::string& writer, bool resume, bool restart);
   ~Store();
 
   /// Every tile that is on the disk, by any writer: read when the store was opened and at
-  /// refresh().
+  /// refresh(). One that has lost a file, or whose file has another size, is not among them.
   const std::map<TileId, TileRecord>& done() const;
+  /// @throws Error input: a journal that is damaged.
   void refresh();
-  /// Whether manifest.json is there: the forest is finished.
+  /// Whether manifest.json is there: the forest is finished, and nothing is kept any more.
   bool finished() const;
+  /// What was found amiss and is computed again.
+  const std::vector<std::string>& warnings() const;
 
   /// Keeps a tile: mesh and seam under temporary names, synced, renamed, then its line. Returns the
-  /// record with its files. @throws Error output; the tile then does not count.
+  /// record with its files and all that the surface tells. One call at a time.
+  /// @throws Error output; the tile then does not count.
   TileRecord put(const TileSurface& surface, TileRecord record);
 
   const std::filesystem::path& folder() const;
+  const std::string& writer() const;
+  const nlohmann::ordered_json& plan() const;
 
  private:
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
 
+/// Writes a file of the result into the folder, by way of work/, so that nothing half-written
+/// outlives the forest. @throws Error output.
+FileRecord put_file(const Store& store, const std::string& name,
+                    const std::function<void(std::ostream&)>& writer);
+
 /// Pieces of surface that are to be dropped because all tiles' parts together are small.
 struct SmallPieces {
-  /// Twelve times the least volume that stays, by level; 0: all stay.
+  /// Twelve times the least volume that stays, by level; 0, or a level beyond: all stay.
   std::vector<ExactVolume> least;
 };
 
@@ -62,13 +81,24 @@ struct FinishedTile {
   Box bounds;
 };
 
+/// The result, in place.
+struct FinishedForest {
+  std::vector<FinishedTile> tiles;       ///< those with a surface, ascending
+  std::uint64_t dropped_components = 0;  ///< small pieces that reached over seams
+  std::optional<FileRecord> single;
+};
+
 /// Makes the result from a store in which every tile of `tiles` is done: drops small pieces that
 /// reach over seams, puts the tiles in place (tiles/LEVEL/X_Y_Z.glb), and welds those of level 0
-/// into `single` where asked for. May be cut off at any moment and called again. Holds a few tiles
-/// at a time.
-std::vector<FinishedTile> put_in_place(const Store& store, std::span<const TileId> tiles,
-                                       const SmallPieces& small,
-                                       const std::optional<std::filesystem::path>& single);
+/// into `single` (.glb or .ply, relative to the folder) where asked for. May be cut off at any
+/// moment and called again. Holds a few tiles at a time.
+/// @param tile_edge cells along a tile's edge.
+/// @throws Error input: a tile's file is damaged; it is removed, so that a store that is opened
+///         again lacks the tile; output; internal: a tile that is not done, or tiles that do not
+///         fit together.
+FinishedForest put_in_place(const Store& store, std::span<const TileId> tiles, int tile_edge,
+                            const SmallPieces& small,
+                            const std::optional<std::filesystem::path>& single);
 
 /// Writes manifest.json, which ends the forest, and removes work/. `files`: others that belong to
 /// it, by name, tileset.json among them.

@@ -109,6 +109,14 @@ void TemporaryFile::finish(const fs::path& destination) {
   if (::close(std::exchange(descriptor_, -1)) != 0) throw write_error(destination, errno);
 }
 
+void sync_folder(const fs::path& folder) {
+  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) return;  // a folder may be writable and yet not readable
+  const int reason = ::fsync(descriptor) == 0 ? 0 : errno;
+  ::close(descriptor);
+  if (reason != 0 && reason != EINVAL) throw write_error(folder, reason);
+}
+
 UninterruptedSection::UninterruptedSection() {
   sigset_t every_signal;
   sigfillset(&every_signal);

@@ -31,6 +31,10 @@ class TemporaryFile {
   int descriptor_ = -1;
 };
 
+/// Brings the names in a folder to the disk: a rename survives a power cut only after this.
+/// @throws Error output.
+void sync_folder(const std::filesystem::path& folder);
+
 /// While one exists, the calling thread takes no signals and discard_unfinished_outputs(), called
 /// from another thread's handler, waits: an interrupt falls before or after the renames.
 class UninterruptedSection {

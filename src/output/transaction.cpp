@@ -22,15 +22,6 @@ bool exchange(const char* a, const char* b) {
   return ::renameat2(AT_FDCWD, a, AT_FDCWD, b, RENAME_EXCHANGE) == 0;
 }
 
-/// A rename survives a power cut only once its folder is on the disk.
-void sync_folder(const fs::path& folder) {
-  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (descriptor < 0) return;  // a folder may be writable and yet not readable
-  const int reason = ::fsync(descriptor) == 0 ? 0 : errno;
-  ::close(descriptor);
-  if (reason != 0 && reason != EINVAL) throw write_error(folder, reason);
-}
-
 }  // namespace
 
 void Transaction::write(const fs::path& name, const std::function<void(std::ostream&)>& writer) {

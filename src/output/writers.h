@@ -16,6 +16,9 @@ namespace leafhull {
 /// Binary glTF 2.0: one node, moved to Mesh::origin, with one single-sided leaf-green material.
 void write_glb(const Mesh& mesh, std::ostream& stream);
 
+/// The same of a mesh that was read from such a file: its normals, unit already, stay bit for bit.
+void write_glb_again(const Mesh& mesh, std::ostream& stream);
+
 /// The same scene as JSON, its buffer embedded as a data URI: one file, a third larger than a GLB.
 void write_gltf(const Mesh& mesh, std::ostream& stream);
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <sys/types.h>
-
 #include <cstddef>
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
+
+#include "output/line_file.h"
 
 namespace leafhull {
 
@@ -20,10 +20,7 @@ class Journal {
   /// Opens or creates `file`, keeps other processes out of it, and reads it.
   /// @throws Error output: it cannot be written; usage: it is no journal, or another process has
   /// it.
-  explicit Journal(std::filesystem::path file);
-  ~Journal();
-  Journal(const Journal&) = delete;
-  Journal& operator=(const Journal&) = delete;
+  explicit Journal(const std::filesystem::path& file);
 
   /// Null in a new journal.
   const Json& header() const { return header_; }
@@ -36,13 +33,7 @@ class Journal {
   void append(Json row);
 
  private:
-  void read();
-  void truncate(off_t size);
-  void write_line(const Json& line);
-
-  std::filesystem::path file_;
-  int descriptor_ = -1;
-  off_t size_ = 0;  ///< of the whole lines
+  LineFile lines_;
   Json header_;
   std::map<std::size_t, Json> rows_;
 };

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <set>
+#include <utility>
+
+#include "forest/seam_pieces.h"
+#include "forest/stored_tiles.h"
+#include "forest/tile_json.h"
+#include "forest/tile_mesh.h"
+#include "forest/weld.h"
+#include "output/temporary_file.h"
+#include "output/writers.h"
+
+namespace leafhull {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A tile that loses nothing is the file that it was.
+PlacedTile place_whole(const StoredTiles& tiles, std::size_t t) {
+  const TileRecord& record = tiles[t];
+  const ForestFolder& folder = tiles.folder();
+  if (record.triangles == 0) {
+    remove_path(folder.tile(record.id));
+  } else {
+    tiles.mesh_file(t);  // for its checksum
+    folder.link(folder.mesh(record.id), folder.tile(record.id));
+  }
+  return {.mesh = record.mesh,
+          .kept_seam = {},
+          .vertices = record.vertices,
+          .triangles = record.triangles,
+          .own_vertices = record.own_vertices,
+          .bounds = record.bounds};
+}
+
+PlacedTile place_rest(const StoredTiles& tiles, std::size_t t,
+                      std::span<const std::uint32_t> dropped) {
+  const TileRecord& record = tiles[t];
+  const ForestFolder& folder = tiles.folder();
+  Seam seam = tiles.seam(t);
+  Mesh mesh = tiles.mesh(t, seam);
+  drop_pieces(mesh, seam, dropped);
+
+  PlacedTile placed{.mesh = {},
+                    .kept_seam = {},
+                    .vertices = mesh.positions.size(),
+                    .triangles = mesh.triangles.size(),
+                    .own_vertices = seam.own_vertices,
+                    .bounds = bounds_of(mesh)};
+  if (mesh.triangles.empty()) {
+    remove_path(folder.tile(record.id));
+    seam.loose = std::move(mesh);
+  } else {
+    placed.mesh = folder.write(folder.tile(record.id),
+                               [&](std::ostream& stream) { write_glb_again(mesh, stream); });
+  }
+  placed.kept_seam = folder.write(folder.kept_seam(record.id),
+                                  [&](std::ostream& stream) { write_seam(seam, stream); });
+  return placed;
+}
+
+FinishedTile finished(const TileId& id, const PlacedTile& placed) {
+  return {.id = id,
+          .mesh = placed.mesh,
+          .vertices = placed.vertices,
+          .triangles = placed.triangles,
+          .bounds = placed.bounds};
+}
+
+}  // namespace
+
+FinishedForest put_in_place(const Store& store, std::span<const TileId> ids, int tile_edge,
+                            const SmallPieces& small, const std::optional<fs::path>& single) {
+  const StoredTiles tiles(store, ids, tile_edge);
+  const DroppedPieces dropped = find_small_pieces(tiles, small);
+  FinishedForest forest;
+  forest.dropped_components = dropped.count;
+
+  std::vector<PlacedTile> placed;
+  std::set<fs::path> folders;
+  for (std::size_t t = 0; t < tiles.size(); ++t) {
+    const auto& pieces = dropped.of_tile[t];
+    placed.push_back(pieces.empty() ? place_whole(tiles, t) : place_rest(tiles, t, pieces));
+    if (placed.back().triangles == 0) continue;
+    forest.tiles.push_back(finished(tiles[t].id, placed.back()));
+    folders.insert(tiles.folder().tile(tiles[t].id).parent_path());
+  }
+  for (const fs::path& folder : folders) sync_folder(folder);
+  if (single) forest.single = weld(tiles, placed, *single);
+  return forest;
+}
+
+void finish_store(const Store& store, std::span<const FinishedTile> tiles,
+                  const std::map<std::string, FileRecord>& files) {
+  const ForestFolder folder(store.folder(), store.writer());
+  Json others = Json::object(), rows = Json::array();
+  for (const auto& [name, record] : files) others[name] = json_of(record);
+  for (const FinishedTile& tile : tiles) {
+    Json row{{"file", "tiles/" + name_of(tile.id) + ".glb"}};
+    row.update(json_of(tile.mesh));
+    row["vertices"] = tile.vertices;
+    row["triangles"] = tile.triangles;
+    row["bounds"] = json_of(tile.bounds);
+    rows.push_back(std::move(row));
+  }
+  const Json manifest = sealed({{"schema", kManifestSchema},
+                                {"plan", store.plan()},
+                                {"files", std::move(others)},
+                                {"tiles", std::move(rows)}});
+  folder.write(folder.manifest(),
+               [&](std::ostream& stream) { stream << dumped(manifest, 2) << '\n'; });
+  sync_folder(store.folder());
+  folder.remove_work();
+}
+
+}  // namespace leafhull

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "forest/tile_mesh.h"
+
+#include <tiny_gltf.h>
+
+#include <algorithm>
+#include <cstring>
+#include <numeric>
+#include <system_error>
+#include <utility>
+
+#include "forest/forest_folder.h"
+#include "forest/store.h"
+#include "leafhull/error.h"
+#include "output/mesh_vertex.h"
+
+namespace leafhull {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kComputeAgain = "Run it again with --resume: the tile is computed again.";
+
+class GlbReader {
+ public:
+  GlbReader(std::string_view glb, const std::string& where) : where_(where) {
+    std::string error, warning;
+    const auto* bytes = reinterpret_cast<const unsigned char*>(glb.data());
+    if (!tinygltf::TinyGLTF().LoadBinaryFromMemory(&model_, &error, &warning, bytes,
+                                                   static_cast<unsigned>(glb.size()))) {
+      fail();
+    }
+    if (model_.buffers.size() != 1 || model_.nodes.size() != 1 || model_.meshes.size() != 1 ||
+        model_.meshes.front().primitives.size() != 1) {
+      fail();
+    }
+  }
+
+  Mesh mesh() const {
+    const tinygltf::Primitive& primitive = model_.meshes.front().primitives.front();
+    Mesh mesh;
+    const std::vector<double>& origin = model_.nodes.front().translation;
+    if (origin.size() == 3) mesh.origin = {origin[0], origin[1], origin[2]};
+    mesh.positions = elements<Vec3f>(attribute(primitive, "POSITION"));
+    mesh.normals = elements<Vec3f>(attribute(primitive, "NORMAL"));
+    mesh.triangles = triangles(primitive.indices);
+    for (const auto& [a, b, c] : mesh.triangles) {
+      if (std::max({a, b, c}) >= mesh.positions.size()) fail();
+    }
+    if (mesh.normals.size() != mesh.positions.size()) fail();
+    return mesh;
+  }
+
+ private:
+  using Triangles = std::vector<std::array<std::uint32_t, 3>>;
+
+  [[noreturn]] void fail() const {
+    throw Error(ErrorCode::input, where_ + " is no mesh that leafhull has written", kComputeAgain);
+  }
+
+  int attribute(const tinygltf::Primitive& primitive, const char* name) const {
+    const auto found = primitive.attributes.find(name);
+    return found == primitive.attributes.end() ? -1 : found->second;
+  }
+
+  const tinygltf::Accessor& accessor(int index) const {
+    if (index < 0 || static_cast<std::size_t>(index) >= model_.accessors.size()) fail();
+    return model_.accessors[static_cast<std::size_t>(index)];
+  }
+
+  /// All that is in the accessor's view.
+  template <class Element>
+  std::vector<Element> elements(int index) const {
+    const int view_index = accessor(index).bufferView;
+    if (view_index < 0 || static_cast<std::size_t>(view_index) >= model_.bufferViews.size()) fail();
+    const tinygltf::BufferView& view = model_.bufferViews[static_cast<std::size_t>(view_index)];
+    const std::vector<unsigned char>& data = model_.buffers.front().data;
+    if (view.byteOffset > data.size() || view.byteLength > data.size() - view.byteOffset ||
+        view.byteLength % sizeof(Element) != 0) {
+      fail();
+    }
+    std::vector<Element> result(view.byteLength / sizeof(Element));
+    std::memcpy(result.data(), data.data() + view.byteOffset, view.byteLength);
+    return result;
+  }
+
+  Triangles triangles(int index) const {
+    if (accessor(index).componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT) {
+      return elements<std::array<std::uint32_t, 3>>(index);
+    }
+    Triangles triangles;
+    for (const auto [a, b, c] : elements<std::array<std::uint16_t, 3>>(index)) {
+      triangles.push_back({a, b, c});
+    }
+    return triangles;
+  }
+
+  tinygltf::Model model_;
+  const std::string& where_;
+};
+
+/// Which vertices are connected with one of `seeds`.
+std::vector<bool> connected(const Mesh& mesh, const std::vector<std::uint32_t>& seeds) {
+  std::vector<std::uint32_t> parent(mesh.positions.size());
+  std::iota(parent.begin(), parent.end(), 0u);
+  const auto root = [&](std::uint32_t v) {
+    while (parent[v] != v) v = parent[v] = parent[parent[v]];
+    return v;
+  };
+  for (const auto& [a, b, c] : mesh.triangles) {
+    parent[root(b)] = root(a);
+    parent[root(c)] = root(a);
+  }
+  std::vector<bool> is_root_of_seed(parent.size());
+  for (const std::uint32_t seed : seeds) is_root_of_seed[root(seed)] = true;
+  std::vector<bool> is_connected(parent.size());
+  for (std::uint32_t v = 0; v < parent.size(); ++v) is_connected[v] = is_root_of_seed[root(v)];
+  return is_connected;
+}
+
+}  // namespace
+
+Mesh read_mesh(std::string_view glb, const std::string& where) {
+  return GlbReader(glb, where).mesh();
+}
+
+std::string checked_content(const fs::path& file, const FileRecord& record) {
+  std::string content = content_of(file);
+  if (const FileRecord found = record_of(content);
+      found.bytes == record.bytes && found.sha256 == record.sha256) {
+    return content;
+  }
+  std::error_code ignored;
+  fs::remove(file, ignored);
+  throw Error(ErrorCode::input, file.string() + " is damaged: its checksum differs", kComputeAgain);
+}
+
+void drop_pieces(Mesh& mesh, Seam& seam, std::span<const std::uint32_t> dropped) {
+  std::vector<std::uint32_t> seeds;
+  for (const std::uint32_t c : dropped) seeds.push_back(seam.components[c].vertex);
+  const std::vector<bool> goes = connected(mesh, seeds);
+
+  std::vector<std::uint32_t> moved_to(goes.size());
+  std::uint32_t kept = 0, own = 0;
+  for (std::uint32_t v = 0; v < goes.size(); ++v) {
+    if (goes[v]) continue;
+    mesh.positions[kept] = mesh.positions[v];
+    mesh.normals[kept] = mesh.normals[v];
+    if (v < seam.own_vertices) ++own;
+    moved_to[v] = kept++;
+  }
+  mesh.positions.resize(kept);
+  mesh.normals.resize(kept);
+  std::erase_if(mesh.triangles, [&](const auto& triangle) { return goes[triangle[0]]; });
+  for (auto& triangle : mesh.triangles) {
+    for (std::uint32_t& v : triangle) v = moved_to[v];
+  }
+  seam.own_vertices = own;
+  for (auto* vertices : {&seam.borrowed, &seam.lent}) {
+    std::erase_if(*vertices, [&](const SeamVertex& v) { return goes[v.vertex]; });
+    for (SeamVertex& v : *vertices) v.vertex = moved_to[v.vertex];
+  }
+}
+
+Box bounds_of(const Mesh& mesh) {
+  Box box;
+  for (std::size_t v = 0; v < mesh.positions.size(); ++v) box.include(world_position(mesh, v));
+  return box;
+}
+
+}  // namespace leafhull

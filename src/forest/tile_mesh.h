@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "forest/record.h"
+#include "forest/seam_file.h"
+#include "leafhull/shape.h"
+
+namespace leafhull {
+
+/// A mesh out of a GLB that leafhull has written. @throws Error input: it is none.
+Mesh read_mesh(std::string_view glb, const std::string& where);
+
+/// The content of a tile's file. One that is damaged is removed, so that the tile is computed
+/// again.
+/// @throws Error input: it cannot be read, or its checksum differs.
+std::string checked_content(const std::filesystem::path& file, const FileRecord& record);
+
+/// Removes the connected pieces of the mesh that hold one of the components `dropped`, from the
+/// seam too; what stays keeps its order.
+void drop_pieces(Mesh& mesh, Seam& seam, std::span<const std::uint32_t> dropped);
+
+Box bounds_of(const Mesh& mesh);
+
+}  // namespace leafhull
