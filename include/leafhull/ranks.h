@@ -45,7 +45,7 @@ class Ranks {
   /// Waits for all, without taking a core. Collective.
   virtual void barrier() = 0;
 
-  // For a rank that ends before its time, in a handler of a signal too: these three are
+  // For a rank that ends before its time, in a handler of a signal too: these four are
   // async-signal-safe.
 
   /// Says that this rank ends. True for the first on its host, which is the one to say why.
@@ -54,6 +54,10 @@ class Ranks {
   virtual bool is_lost(int rank) const noexcept = 0;
   /// What add() returned, to any rank of this host; on one host, the sum itself.
   virtual std::uint64_t last(Sum sum) const noexcept = 0;
+
+  /// Waits until the other ranks of this host have left or are gone, half a second at most: where
+  /// the first one ends, Open MPI's mpirun may kill (-9) the rest in the middle of their leaving.
+  virtual void leave_together() noexcept = 0;
 
   /// Ends every rank, this one with an exit code, after an error that the others do not know of.
   [[noreturn]] virtual void abort(int exit_code) = 0;

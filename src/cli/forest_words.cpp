@@ -51,8 +51,7 @@ class Line {
   std::size_t size_ = 0;
 };
 
-void say_last_words() noexcept {
-  if (!run.ranks->leave()) return;
+void tell_why() noexcept {
   Line line;
   line.add("leafhull: ");
   int lost = 0;
@@ -72,6 +71,11 @@ void say_last_words() noexcept {
   }
   line.add(run.how_to_go_on);
   line.print();
+}
+
+void say_last_words() noexcept {
+  if (run.ranks->leave()) tell_why();
+  run.ranks->leave_together();
 }
 
 }  // namespace

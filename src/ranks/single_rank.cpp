@@ -35,6 +35,8 @@ class SingleRank final : public Ranks {
     return sums_[static_cast<std::size_t>(sum)];
   }
 
+  void leave_together() noexcept override {}
+
   [[noreturn]] void abort(int exit_code) override { std::exit(exit_code); }
 
  private:

@@ -58,10 +58,15 @@ void compute(double seconds) {
 
 /// Numbers, in two rounds.
 void count() {
-  constexpr std::uint64_t kBound = 1000;
+  constexpr std::uint64_t kBound = 100'000;
   for (int round = 0; round < 2; ++round) {
-    for (std::uint64_t n = ranks->next(); n < kBound; n = ranks->next()) say_line(round, n);
+    ranks->barrier();  // so that all take at once
+    std::string taken = std::to_string(round);
+    for (std::uint64_t n = ranks->next(); n < kBound; n = ranks->next()) {
+      taken += ' ' + std::to_string(n);
+    }
     ranks->reset();
+    say_line(taken);
   }
 }
 
@@ -114,6 +119,7 @@ extern "C" void tell(int signal) {
     if (ranks->is_lost(rank)) say({word.data(), word.size()});
   }
   say("\n");
+  ranks->leave_together();
   std::signal(signal, SIG_DFL);
   std::raise(signal);
 }

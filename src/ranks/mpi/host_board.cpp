@@ -7,11 +7,15 @@
 #include <algorithm>
 #include <cerrno>
 #include <csignal>
+#include <ctime>
 #include <memory>
 #include <numeric>
 
 namespace leafhull {
 namespace {
+
+constexpr timespec kLeavingStep = {.tv_sec = 0, .tv_nsec = 5'000'000};
+constexpr int kLeavingSteps = 100;
 
 bool is_gone(int pid) { return kill(pid, 0) != 0 && errno == ESRCH; }
 
@@ -97,6 +101,16 @@ std::uint64_t HostBoard::get(Counter counter) const noexcept { return at(counter
 bool HostBoard::leave() noexcept {
   const bool is_new = !left_[place_].exchange(true);
   return is_new && board_->left_ranks.fetch_add(1) == 0;
+}
+
+void HostBoard::wait_for_leavers() const noexcept {
+  const auto may_still_leave = [this](std::size_t place) {
+    return !left_[place] && pids_[place] != 0 && !is_gone(pids_[place]);
+  };
+  int patience = kLeavingSteps;
+  for (std::size_t place = 0; place < pids_.size(); ++place) {
+    while (may_still_leave(place) && patience-- > 0) nanosleep(&kLeavingStep, nullptr);
+  }
 }
 
 bool HostBoard::is_lost(int rank) const noexcept {

@@ -37,7 +37,8 @@ class HostBoard {
   void note(Counter counter, std::uint64_t value) noexcept;  ///< unless it is higher already
   std::uint64_t get(Counter counter) const noexcept;
 
-  bool leave() noexcept;                  ///< true for the first
+  bool leave() noexcept;  ///< true for the first
+  void wait_for_leavers() const noexcept;
   bool is_lost(int rank) const noexcept;  ///< false for one of another host
 
  private:

@@ -80,6 +80,7 @@ class MpiRanks final : public Ranks {
   bool leave() noexcept override { return board_.leave(); }
   bool is_lost(int rank) const noexcept override { return board_.is_lost(rank); }
   std::uint64_t last(Sum sum) const noexcept override { return board_.get(counter_of(sum)); }
+  void leave_together() noexcept override { board_.wait_for_leavers(); }
 
   [[noreturn]] void abort(int exit_code) override {
     leave();
