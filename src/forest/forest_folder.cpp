@@ -57,7 +57,7 @@ FileRecord ForestFolder::write(const fs::path& file,
   writer(checked);
   stream.flush();
   temporary.finish(file);
-  const FileRecord record = checked.record();
+  FileRecord record = checked.record();
   if (before) before(record);
   if (std::rename(temporary.path(), file.c_str()) != 0) throw write_error(file, errno);
   return record;

@@ -90,7 +90,7 @@ void remove_listed(const fs::path& list, std::string_view schema, const fs::path
     const fs::path file = folder / name;
     const std::string extension = lower_extension(file);
     if ((extension == ".glb" || extension == ".ply") && fs::is_regular_file(file) &&
-        record_of_file(file).sha256 == record.at("sha256")) {
+        record_of_file(file).sha256 == record.at("sha256").get<std::string>()) {
       remove_path(file);
     }
   }

@@ -18,13 +18,18 @@ Json member(const Json& of, const std::string& key) {
   return index < of.size() ? of[index] : none;
 }
 
+std::string inner_path(std::string path, const std::string& key) {
+  if (!path.empty()) path += '.';
+  return path += key;
+}
+
 std::optional<std::string> first_difference(const Json& there, const Json& here,
                                             const std::string& path) {
   if (there == here && there.is_discarded() == here.is_discarded()) return {};
   if (there.type() == here.type() && there.is_structured()) {
     for (const Json* keys : {&here, &there}) {
       for (const auto& [key, value] : keys->items()) {
-        const std::string inner = path.empty() ? key : path + "." + key;
+        const std::string inner = inner_path(path, key);
         if (auto found = first_difference(member(there, key), member(here, key), inner)) {
           return found;
         }

@@ -183,7 +183,7 @@ FileRecord weld(const StoredTiles& tiles, std::span<const PlacedTile> placed,
                  [&](std::ostream& stream) { stream << dumped(sealed(files), 2) << '\n'; });
   };
   const fs::path destination = resolve_destination(folder.path() / file);
-  const FileRecord record = folder.write(destination, write, announce);
+  FileRecord record = folder.write(destination, write, announce);
   sync_folder(destination.parent_path());
   return record;
 }

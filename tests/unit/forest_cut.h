@@ -18,6 +18,7 @@
 
 namespace leafhull::test {
 
+/// A hole where the radius is negative.
 struct Ball {
   Vec3d centre;
   double radius;
@@ -31,12 +32,14 @@ struct LatticeMesh {
   std::vector<Coord> lowest;         ///< by triangle
 };
 
-/// Balls that add up, in 1 / 8192 voxels, within [low, high).
+/// Balls, and holes in them, in 1 / 8192 voxels, within [low, high).
 inline LatticeMesh mesh_of(const std::vector<Ball>& balls, Coord low, Coord high) {
   const auto density = [&](Vec3d p) {
     double highest = 0;
     for (const Ball& ball : balls) {
-      highest = std::max(highest, 10 + ball.radius - length(p - ball.centre));
+      const double distance = length(p - ball.centre);
+      highest = ball.radius > 0 ? std::max(highest, 10 + ball.radius - distance)
+                                : std::min(highest, 10 + ball.radius + distance);
     }
     return highest;
   };

@@ -63,6 +63,7 @@ inline constexpr int kEdge = 8;
 /// takes its tile with it, a hollow one, one within a tile.
 inline const LatticeMesh& sample() {
   static const LatticeMesh mesh = mesh_of({{{0.3, 0.2, 0.4}, 6.3},      // eight tiles
+                                           {{0.3, 0.2, 0.4}, -3},       // hollow
                                            {{8.1, 0.1, 8.2}, 2.9},      // four more
                                            {{-8.2, -8.1, -8.3}, 1.4},   // eight, small
                                            {{8.0, -7.8, 3.6}, 1.3},     // four, small

@@ -194,6 +194,13 @@ TEST_F(ForestWeld, PutsEveryTileInPlace) {
   }
 }
 
+TEST_F(ForestWeld, AgainLeavesWhatWasThere) {
+  put(sample_tiles(), small_pieces(), "all.ply");
+  const auto before = tree(folder.path());
+  put(sample_tiles(), small_pieces(), "all.ply");
+  EXPECT_TRUE(tree(folder.path()) == before);
+}
+
 TEST_F(ForestWeld, TakesLevelsOneByOne) {
   const Tiles fine = sample_tiles();
   Tiles all = fine;
