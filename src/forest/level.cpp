@@ -87,7 +87,7 @@ ForestModel prepare_model(const LeafSet& all, int level, const Options& resolved
   for (const Kernel& k : model.kernels) model.bounds.include(k.centre);
   model.reach = report.radius_max_model;
   for (const LeafVertex& leaf : leaves.vertices) {  // what control may give it
-    model.reach = std::max({model.reach, static_cast<double>(leaf.radius_major)});
+    model.reach = std::max(model.reach, static_cast<double>(leaf.radius_major));
   }
   return model;
 }
@@ -187,7 +187,7 @@ ForestLevel prepare_level(int number, std::span<const LeafSet> models,
     radius_max = std::max(radius_max, level.models[m].radius_max * uses[m].largest);
   }
   level.threshold = threshold_of(level, uses, finest);
-  // The surface of level L lies around leaves that stand up to R_max apart, on its voxels.
+  // A voxel, and what R_max has grown by since level 0.
   level.error = level.voxel_size + radius_max * (1 - std::ldexp(1.0, -number));
 
   if (const double share = *resolved.min_component; share > 0) {
