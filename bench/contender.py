@@ -14,10 +14,12 @@ import re
 import subprocess
 import tempfile
 import threading
+import time
 from collections.abc import Mapping
 from pathlib import Path
 
 ANSWER_SECONDS = 300
+FOREST_SECONDS = 4 * 3600
 
 
 class Unavailable(Exception):
@@ -41,6 +43,36 @@ def call(command: list[str], environment: Mapping[str, str] | None = None) -> st
         raise Unavailable(f"not done within {ANSWER_SECONDS} s") from None
     except subprocess.CalledProcessError as error:
         raise Unavailable(f"status {error.returncode}: {error.stderr.strip()}") from None
+
+
+def measure(command: list[str], environment: Mapping[str, str]) -> tuple[float, int]:
+    """How long a program runs to its end, and the most bytes that one of its processes holds; the
+    kernel counts those of the process that started it too, so never less than the bench's."""
+    with tempfile.TemporaryFile("w+") as log:
+        start = time.perf_counter()
+        try:
+            process = subprocess.Popen(
+                command, stdout=log, stderr=log, env={**os.environ, **environment}
+            )
+        except FileNotFoundError:
+            raise Unavailable(f"{Path(command[0]).name} is not there") from None
+        patience = threading.Timer(FOREST_SECONDS, process.kill)
+        patience.start()
+        _, status, usage = os.wait4(process.pid, 0)  # and of the processes that it waited for
+        seconds = time.perf_counter() - start
+        patience.cancel()
+        process.returncode = os.waitstatus_to_exitcode(status)
+        if process.returncode != 0:
+            log.seek(0)
+            raise Unavailable(f"status {process.returncode}: {complaint(log.read())}")
+        return seconds, 1024 * usage.ru_maxrss
+
+
+def complaint(said: str) -> str:
+    """leafhull's own line out of what others, such as mpirun, say about it; else the last."""
+    lines = [line.strip() for line in said.splitlines() if line.strip()]
+    own = (line for line in lines if line.startswith("leafhull: "))
+    return next(own, lines[-1] if lines else "nothing said")
 
 
 class Contender:

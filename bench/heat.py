@@ -36,6 +36,11 @@ class Limits(NamedTuple):
         return max(1, min(self.rounds, int(self.seconds / warm_up)))
 
 
+class Job(NamedTuple):
+    entrants: list[Entrant]
+    limits: Limits
+
+
 def unit_of(part: str) -> str:
     *groups, name = part.split(": ")
     if name.endswith("_bytes"):

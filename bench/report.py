@@ -4,6 +4,7 @@
 from collections.abc import Iterable, Iterator
 
 import contenders as who
+import forests
 import limit
 import pictures
 import plan
@@ -93,6 +94,8 @@ def whole_cell(results: Results, case: str, contender: str) -> str:
 
 
 def whole_section(results: Results) -> Iterator[str]:
+    if not tree_styles(results):
+        return
     yield "## Whole runs, by voxels along the longest side"
     yield ""
     yield "Milliseconds, and how many times leafhull's isotropic run that is."
@@ -130,6 +133,8 @@ def tree_styles(results: Results) -> list[tuple[str, str]]:
 
 
 def parts_section(results: Results) -> Iterator[str]:
+    if not tree_styles(results):
+        return
     yield "## Field and mesh apart, 128 voxels"
     yield ""
     yield (
@@ -255,6 +260,7 @@ SECTIONS = (
     limit.section,
     series_section,
     pictures.section,
+    forests.section,
     cold_section,
     contender_section,
 )

@@ -9,13 +9,13 @@ import re
 import sys
 import time
 from pathlib import Path
-from typing import NamedTuple
 
 import contenders as who
+import forest_plan
 import machine
 import plan
 import render
-from heat import Entrant, Heat, Limits
+from heat import Heat, Job, Limits
 from records import Results
 
 FULL = Limits(rounds=5, seconds=12)
@@ -26,6 +26,7 @@ ONCE = Limits(rounds=1, seconds=math.inf, warm_up=False)
 def arguments() -> argparse.Namespace:
     parser = argparse.ArgumentParser(prog="./dev bench", description=__doc__)
     parser.add_argument("--quick", action="store_true", help="a small tree, 2 rounds")
+    parser.add_argument("--forest", action="store_true", help="forests, and nothing else: an hour")
     parser.add_argument(
         "--case", metavar="REGEX", default="", help="only the cases whose name it finds"
     )
@@ -38,23 +39,27 @@ def stem(asked: argparse.Namespace, day: str) -> Path:
     whole = not asked.quick and not asked.case
     folder = who.ROOT / ("bench/results" if whole else "build/bench/results")
     folder.mkdir(parents=True, exist_ok=True)
-    return folder / f"{day}-{cpu}{'-quick' if asked.quick else ''}"
+    kind = f"{'-forest' if asked.forest else ''}{'-quick' if asked.quick else ''}"
+    return folder / f"{day}-{cpu}{kind}"
 
 
-class Job(NamedTuple):
-    entrants: list[Entrant]
-    limits: Limits
-
-
-def jobs(quick: bool, case: str) -> list[Job]:
-    """Those heats and surveys whose cases were chosen."""
+def every_job(quick: bool, forest: bool) -> list[Job]:
+    if forest:
+        return forest_plan.quick_jobs() if quick else forest_plan.jobs()
     heats, surveys, limits = (
         (plan.quick_heats(), plan.quick_surveys(), QUICK)
         if quick
         else (plan.heats(), plan.surveys(), FULL)
     )
-    every = [Job(heat, limits) for heat in heats] + [Job(survey, ONCE) for survey in surveys]
-    kept = [Job([e for e in job.entrants if re.search(case, e.case)], job.limits) for job in every]
+    return [Job(heat, limits) for heat in heats] + [Job(survey, ONCE) for survey in surveys]
+
+
+def jobs(asked: argparse.Namespace) -> list[Job]:
+    """Those whose cases were chosen."""
+    kept = [
+        Job([e for e in job.entrants if re.search(asked.case, e.case)], job.limits)
+        for job in every_job(asked.quick, asked.forest)
+    ]
     return [job for job in kept if job.entrants]
 
 
@@ -70,19 +75,21 @@ def run(todo: list[Job], results: Results) -> None:
 
 def main() -> None:
     asked = arguments()
-    todo = jobs(asked.quick, asked.case)
+    todo = jobs(asked)
     if not todo:
         sys.exit(f"bench: no case's name matches {asked.case}")
     day = datetime.date.today().isoformat()
+    stand_ins = (forest_plan if asked.forest else plan).stand_ins()
     results = Results(
         about={
             "date": day,
+            "forests": asked.forest,
             "machine": machine.describe(who.ROOT, who.LEAFHULL),
-            "stand_ins": plan.stand_ins(),
+            "stand_ins": stand_ins,
             "absent": [],
         }
     )
-    for tree, other in plan.stand_ins().items():
+    for tree, other in stand_ins.items():
         print(f"bench: THERE IS NO {tree} HERE; {other} RUNS IN ITS PLACE", file=sys.stderr)
     run(todo, results)
     names = dict.fromkeys(record.case for record in results.records)

@@ -4,6 +4,7 @@
 from typing import NamedTuple
 
 import contenders as who
+import forests
 import limit
 import pictures
 import plan
@@ -121,6 +122,25 @@ def startup(results: Results, contender: str) -> Values:
 
 
 def targets(results: Results) -> list[Target]:
+    """Of what was run: forests, or trees one by one."""
+    return of_forests(results) if forests.asked(results) else of_trees(results)
+
+
+def of_forests(results: Results) -> list[Target]:
+    return [
+        at_least("a canopy of 20,000 trees, 0.25 m voxels, 2 cores", 3, "M leaf vertices/s",
+                 forests.rate(results)),
+        at_most("memory of that canopy", 4, "GiB", forests.resident(results)),
+        at_most("time against trees, 1,000 to 20,000: departure from a line", 10, "%",
+                forests.departure(results)),
+        at_most("memory against trees: growth since 1,000, beside 100 bytes per instance", 5, "%",
+                forests.growth(results)),
+        at_most("2 ranks over 1 rank with 2 threads, 2 cores", 1.1, "x", forests.ranks(results)),
+        at_most("`--merge none`, 1 M instances of 30 models", 60, "s", forests.instances(results)),
+    ]  # fmt: skip
+
+
+def of_trees(results: Results) -> list[Target]:
     return [
         at_least("hash, bounds and field, isotropic, painterly, 128 voxels, over "
                  "`rasterizeSmoothSpheres` and its point grid", 25, "x",

@@ -11,3 +11,13 @@ if(NODE AND NPM)
     DEPENDS ${packages} VERBATIM)
   add_custom_target(gltf_validator DEPENDS ${LEAFHULL_VALIDATOR}/node_modules/.package-lock.json)
 endif()
+
+# check_with_validator(TARGET): says to a test program where it is (unit/khronos_validator.h).
+function(check_with_validator target)
+  if(TARGET ${target})
+    target_compile_definitions(${target} PRIVATE
+      LEAFHULL_NODE="${NODE}"
+      LEAFHULL_VALIDATE_GLB="${CMAKE_CURRENT_SOURCE_DIR}/cli/validate_glb.mjs"
+      LEAFHULL_VALIDATOR="${LEAFHULL_VALIDATOR}")
+  endif()
+endfunction()

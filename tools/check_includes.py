@@ -34,11 +34,11 @@ ROOMS = {
         ),
         ("tbb",),
     ),
-    "scene": (("text",), ("json", "stb")),
+    "scene": (("input", "text"), ("json", "stb")),
     "ranks": ((), ("mpi",)),
     "forest": (
         ("density", "device", "output", "pipeline", "surface", "text"),
-        ("json", "openvdb", "openssl", "tbb", "tinygltf"),
+        ("eigen", "json", "openvdb", "openssl", "tbb", "tinygltf"),
     ),
     "cli": (("text",), ("cli11", "json")),
     "bench": (
@@ -71,8 +71,8 @@ LIBRARIES = {
 
 # Of POSIX and the C library, for files, processes, signals, memory and shared libraries.
 SYSTEM = (
-    "sys/", "dlfcn.h", "fcntl.h", "fnmatch.h", "malloc.h", "poll.h", "signal.h", "spawn.h",
-    "unistd.h",
+    "sys/", "dlfcn.h", "fcntl.h", "fnmatch.h", "malloc.h", "poll.h", "sched.h", "signal.h",
+    "spawn.h", "unistd.h",
 )
 
 NAMESPACE = re.compile(r"^namespace ([\w:]+) \{", re.MULTILINE)

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -34,7 +35,7 @@ struct ForestOptions {
   Options shape;  ///< as of an extraction; a resolution counts along the largest tree
   Merge merge = Merge::canopy;
   ControlScope control_scope = ControlScope::model;
-  int levels = 1;                                 ///< of abstraction, 1 to 16
+  int levels = 1;                                 ///< of abstraction, 1 to 8
   std::uint64_t memory = std::uint64_t{4} << 30;  ///< bytes that a rank may hold
   std::optional<int> tile;  ///< voxels along a tile's edge, a multiple of 32 up to 512; empty: 128,
                             ///< or less where the memory asks for it
@@ -54,6 +55,24 @@ struct ForestProgress {
 };
 using ForestProgressVisitor = std::function<void(const ForestProgress&)>;
 
+/// A tile that this run has computed.
+struct TileRow {
+  int level = 0, x = 0, y = 0, z = 0;  ///< as in tiles/LEVEL/X_Y_Z.glb
+  std::uint64_t leaf_vertices = 0;     ///< in the tile
+  std::uint64_t gathered = 0;          ///< kernels that reach it
+  std::uint64_t evaluated_voxels = 0, vertices = 0, triangles = 0;
+  double seconds = 0;
+  std::uint64_t resident_bytes = 0;  ///< of its process, the most while it was computed
+  int rank = 0;
+};
+
+/// A level of abstraction as it came out.
+struct LevelRow {
+  int level = 0;
+  double voxel_size = 0, threshold = 0;  ///< h, T
+  double error = 0;  ///< how far its surface may be from that of level 0, scene units
+};
+
 /// What a run did.
 struct ForestSummary {
   std::size_t trees = 0, models = 0, skipped = 0;
@@ -61,8 +80,11 @@ struct ForestSummary {
   std::size_t remaining = 0;                      ///< tiles that other ranges have still to do
   std::uint64_t leaf_vertices = 0;                ///< of all trees
   std::uint64_t mesh_vertices = 0, mesh_triangles = 0;
-  std::uint64_t peak_memory_bytes = 0;
+  std::uint64_t peak_memory_bytes = 0;  ///< of the largest rank
   std::vector<StageTime> seconds;
+  std::vector<LevelRow> levels;
+  std::vector<TileRow> rows;  ///< of all ranks, by tile
+  bool was_finished = false;  ///< by an earlier run: nothing was to do
   std::vector<std::string> warnings;
 };
 
@@ -75,6 +97,10 @@ struct ForestSummary {
 ///         empty: no tree has a surface; output; device.
 ForestSummary run_forest(const Scene& scene, const ForestOptions& options, Device& device,
                          Ranks& ranks, const std::filesystem::path& folder,
-                         const RunDescription& run, const ForestProgressVisitor& progress = {});
+                         const ForestProgressVisitor& progress = {});
+
+/// The report as one JSON object, schema "leafhull-forest-report/1".
+std::string forest_report_json(const ForestSummary& summary, const ForestOptions& options,
+                               const RunDescription& run);
 
 }  // namespace leafhull

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -58,11 +59,18 @@ struct PrimitiveSummary {
 /// leaves".
 std::vector<PrimitiveSummary> summarize(const TreeModel& tree, const LeafOptions& options);
 
+/// Whether an instance would be taken as leaves. SPEC: 1.
+bool is_leaf(const TreeModel& tree, const Instance& instance, const LeafOptions& options);
+
 /// The leaves of a tree, one kernel frame at every leaf vertex. SPEC: 1; Source: Eqs. (5), (6),
 /// p. 51.
 /// @throws Error input where nothing matches (the names in the file are listed) or nothing is
 /// usable;
 ///         usage where an option is out of range.
 LeafSet find_leaves(const TreeModel& tree, const LeafOptions& options);
+
+/// The same of some instances of the tree's primitives, which need not be its own.
+LeafSet find_leaves(const TreeModel& tree, std::span<const Instance> instances,
+                    const LeafOptions& options);
 
 }  // namespace leafhull

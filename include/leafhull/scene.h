@@ -18,11 +18,12 @@ namespace leafhull {
 
 /// A tree model that a scene places.
 struct SceneModel {
-  std::string name;            ///< as messages and outputs call it
+  std::string name;            ///< as messages and outputs call it; no two are the same
   std::filesystem::path file;  ///< of a scatter file: a tree
   std::string mesh;            ///< of a glTF scene: its mesh
-  /// Of a glTF scene: the mesh's primitives alone, at the origin. Of a scatter file: empty.
-  std::shared_ptr<const TreeModel> tree;
+  /// Of a glTF scene: the meshes of its models, which share them and their images. Else empty.
+  std::shared_ptr<const TreeModel> meshes;
+  std::vector<Instance> instances;  ///< of `meshes`: the mesh's primitives, at the origin
 };
 
 /// A tree in the scene: x' = linear x + position.
@@ -47,11 +48,10 @@ struct Scene {
 /// A scatter file is .csv, its columns named in a first line (model, x, y, z; then what there is of
 /// qx, qy, qz, qw or yaw or rx, ry, rz in degrees; scale or sx, sy, sz), or .jsonl, an object per
 /// line (model, position, rotation, scale). Models are tree files, named from the scatter file's
-/// folder. In a .glb or .gltf every mesh with leaves is a model and every node that holds it a
-/// tree, EXT_mesh_gpu_instancing included.
-/// @throws Error input: the file, the line and what is wrong: a tree file that is not there, a
-/// value
-///         that is no number, a file without trees.
+/// folder. A tree is scaled, rotated and moved. In a .glb or .gltf every mesh with leaves is a
+/// model and every node that holds it a tree, EXT_mesh_gpu_instancing included.
+/// @throws Error input: the file, the line and what is wrong, such as a tree file that is not there
+///         or a value that is no number; a file without trees.
 Scene read_scene(const std::filesystem::path& path, const LeafOptions& leaves);
 
 /// The leaves of one of its models. @throws Error as read_tree and find_leaves do.
@@ -59,24 +59,26 @@ LeafSet read_model(const SceneModel& model, const LeafOptions& leaves);
 
 /// Heights over the ground: a grey picture of one or two bytes per pixel.
 struct HeightMap {
-  std::filesystem::path picture;  ///< PNG
+  std::filesystem::path picture;  ///< PNG, seen from above: +x to the right, +z down
   double height = 10;             ///< of white above black, scene units
 };
 
 struct ScatterOptions {
-  std::vector<std::filesystem::path> trees;
-  std::size_t count = 0;  ///< 1 to 1,000,000
+  std::vector<std::filesystem::path> trees;  ///< equally often; one named twice twice as often
+  LeafOptions leaves;                        ///< of the trees
+  std::size_t count = 0;                     ///< 1 to 1,000,000
   std::uint64_t seed = 1;
   /// Sides of the rectangle along x and z, centred on the origin; empty: as wide as `spacing` asks.
   std::optional<Vec2d> area;
-  /// Mean distance between neighbours in widths of the mean crown, where `area` is empty.
+  /// Where `area` is empty, the square root of the area for a tree, in widths of the mean crown at
+  /// the mean scale. The nearest neighbour is a little nearer.
   double spacing = 0.8;
-  double scale_low = 0.8, scale_high = 1.2;
-  std::optional<HeightMap> ground;  ///< empty: y = 0
+  double scale_low = 0.8, scale_high = 1.2;  ///< evenly between; > 0
+  std::optional<HeightMap> ground;           ///< over the whole rectangle; empty: y = 0
 };
 
-/// A scatter file with trees at the points of a Poisson-disk pattern: no two are closer than the
-/// densest pattern of `count` points allows. The same options give the same bytes.
+/// A scatter file with trees at the points of a Poisson-disk pattern: no two are closer than about
+/// 0.78 sqrt(area / count). Yaws are even. The same options give the same bytes.
 /// @throws Error usage: a value out of range; input: a tree or the height map cannot be read;
 ///         output: the file cannot be written.
 void write_scatter(const ScatterOptions& options, const std::filesystem::path& file);

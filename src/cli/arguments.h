@@ -9,9 +9,11 @@
 #include <vector>
 
 #include "leafhull/device.h"
+#include "leafhull/forest.h"
 #include "leafhull/options.h"
 #include "leafhull/output.h"
 #include "leafhull/render.h"
+#include "leafhull/scene.h"
 #include "leafhull/sweep.h"
 
 namespace leafhull::cli {
@@ -42,6 +44,13 @@ struct Arguments {
   std::optional<double> detail;
   std::optional<bool> is_shape;
   bool figure17 = false;
+
+  // scatter
+  ScatterOptions scatter;
+  std::filesystem::path scatter_file;
+
+  // forest
+  ForestOptions forest;
 
   // study
   std::vector<std::filesystem::path> trees;

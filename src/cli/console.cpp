@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/console.h"
 
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <iostream>
+#include <new>
 #include <string>
 
 #include "cli/values.h"
@@ -15,13 +17,20 @@
 namespace leafhull::cli {
 namespace {
 
-constexpr int kBarWidth = 30;
+constexpr int kBarWidth = 30, kLeastBarWidth = 5;
 constexpr std::chrono::milliseconds kRedraw{50};
 std::atomic<bool> shown = false;
 static_assert(std::atomic<bool>::is_always_lock_free);
 
 double since(std::chrono::steady_clock::time_point begin) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+/// Of the terminal that the bar is on.
+int columns() {
+  winsize size{};
+  const bool is_known = ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
+  return is_known ? size.ws_col : 100;
 }
 
 /// Whole seconds, or minutes, or hours and minutes.
@@ -71,11 +80,12 @@ void Console::progress_of_all(std::string_view stage, double done) {
   draw(stage, done, beside);
 }
 
-void Console::progress(std::string_view stage, std::size_t done, std::size_t all) {
+void Console::progress(std::string_view stage, std::size_t done, std::size_t all,
+                       const std::string& facts) {
   if (!resumed_) resumed_ = done, resumed_at_ = Clock::now();
   if (Clock::now() - drawn_ < kRedraw) return;  // its stages are too short to follow each
-  std::string beside =
-      std::to_string(done) + " of " + std::to_string(all) + ", " + seconds(since(start_));
+  std::string beside = std::to_string(done) + " of " + std::to_string(all) + ", " +
+                       (facts.empty() ? "" : facts + ", ") + seconds(since(start_));
   if (done > *resumed_ && done < all) {
     const double pace = since(resumed_at_) / static_cast<double>(done - *resumed_);
     beside += ", about " + duration(pace * static_cast<double>(all - done)) + " left";
@@ -87,18 +97,34 @@ void Console::draw(std::string_view stage, double done, const std::string& besid
   if (!bar_) return;
   stage_ = stage;
   drawn_ = Clock::now();
-  const int filled = static_cast<int>(std::lround(std::clamp(done, 0.0, 1.0) * kBarWidth));
   std::string name = stage_;
   name.resize(std::max<std::size_t>(name.size(), 10), ' ');
+  const int room = columns() - static_cast<int>(name.size() + std::size(" [] ") + beside.size());
+  const int width = std::clamp(room, kLeastBarWidth, kBarWidth);
+  const int filled = static_cast<int>(std::lround(std::clamp(done, 0.0, 1.0) * width));
   shown = true;
   std::cerr << "\r\033[K" << name << " [" << std::string(filled, '#')
-            << std::string(kBarWidth - filled, '.') << "] " << beside << std::flush;
+            << std::string(width - filled, '.') << "] " << beside << std::flush;
 }
 
 void clear_progress() noexcept {
   constexpr std::string_view kWipe = "\r\033[K";
   if (!shown.exchange(false)) return;
   [[maybe_unused]] const auto written = write(STDERR_FILENO, kWipe.data(), kWipe.size());
+}
+
+Failure current_failure() {
+  constexpr int kInternal = static_cast<int>(ErrorCode::internal);
+  try {
+    throw;
+  } catch (const Error& error) {
+    return {static_cast<int>(error.code()), error.what(), error.remedy()};
+  } catch (const std::bad_alloc&) {
+    return {kInternal, "out of memory", "Try a lower --resolution."};
+  } catch (const std::exception& error) {
+    return {kInternal, "internal error: " + std::string(error.what()),
+            "Please report it with the command and the tree."};
+  }
 }
 
 void print_error(std::string what, const std::string& remedy) {

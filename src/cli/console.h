@@ -26,8 +26,9 @@ class Console {
   /// The same where `done` is of all there is to do, with the time left.
   void progress_of_all(std::string_view stage, double done);
   /// The same for a row of things: how many are done, and from their pace the time left. What is
-  /// done at the first call was not done now.
-  void progress(std::string_view stage, std::size_t done, std::size_t all);
+  /// done at the first call was not done now. `facts` stand beside them.
+  void progress(std::string_view stage, std::size_t done, std::size_t all,
+                const std::string& facts = {});
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -44,6 +45,15 @@ class Console {
 
 /// Wipes the bar. Async-signal-safe.
 void clear_progress() noexcept;
+
+/// An exception as the command ends with it.
+struct Failure {
+  int exit_code = 0;
+  std::string what, remedy;
+};
+
+/// The exception that is being handled.
+Failure current_failure();
 
 /// Prints `leafhull: error: what. What to do.` as one line.
 void print_error(std::string what, const std::string& remedy);

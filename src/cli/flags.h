@@ -23,6 +23,7 @@ struct Flag {
   std::string_view unit = "", range = "", default_value = "";
   std::string_view help;
   bool repeatable = false;
+  bool hidden = false;  ///< understood, and in no table
   std::function<void(Arguments&, const std::string& value)> set;
 };
 
@@ -37,6 +38,10 @@ std::vector<Flag> output_flags();
 std::vector<Flag> sweep_flags();
 std::vector<Flag> suggest_flags();
 std::vector<Flag> render_flags();
+/// Those of a forest as a whole.
+std::vector<Flag> forest_flags();
+/// The options of its trees; those that tiles cannot have are refused with the reason.
+std::vector<Flag> tree_flags();
 std::vector<Flag> device_flags();
 std::vector<Flag> console_flags();
 std::vector<Flag> json_flags();

@@ -148,6 +148,7 @@ std::string verb_help(const Verb& verb) {
   if (verb.takes_tree || verb.takes_trees) page += "\n" + entry(verb.operand, verb.operand_help);
   std::string_view group;
   for (const Flag& flag : verb.flags) {
+    if (flag.hidden) continue;
     if (flag.group != group) page += "\n" + std::string(group = flag.group) + "\n";
     page += help_line(flag);
   }
@@ -159,6 +160,7 @@ std::string markdown(std::span<const Flag> flags) {
   std::string page;
   std::string_view group;
   for (const Flag& flag : flags) {
+    if (flag.hidden) continue;
     if (flag.group != group) {
       group = flag.group;
       page += (page.empty() ? "" : "\n") + ("**" + std::string(group) + "**\n\n") +
@@ -173,6 +175,12 @@ Verb help_options_verb() {
   return table_verb("help-options", "Prints the options of extract as Markdown tables.",
                     "  leafhull help-options\n",
                     [](const Arguments&) { std::cout << markdown(extract_verb().flags); });
+}
+
+Verb help_forests_verb() {
+  return table_verb("help-forests", "Prints the options of forests as Markdown tables.",
+                    "  leafhull help-forests\n",
+                    [](const Arguments&) { std::cout << markdown(forest_flags()); });
 }
 
 Verb help_pictures_verb() {

@@ -2,8 +2,8 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
+#include <exception>
 #include <iostream>
-#include <new>
 
 #include "cli/console.h"
 #include "cli/help.h"
@@ -41,7 +41,7 @@ void refuse_extras(std::vector<std::string> extras, const Verb& verb) {
   const auto option = std::find_if(extras.begin(), extras.end(), is_option);
   if (option != extras.end()) refuse_option(*option, verb.flags, help);
   throw Error(ErrorCode::usage, "'" + extras.front() + "' is one word too many",
-              verb.takes_tree ? "Give one TREE. " + help : help);
+              verb.takes_tree ? "Give one " + std::string(verb.operand) + ". " + help : help);
 }
 
 [[noreturn]] void refuse_verb(const std::vector<std::string>& words, std::span<const Verb> verbs) {
@@ -67,9 +67,10 @@ CLI::App* add_verb(CLI::App& app, const Verb& verb, Arguments& arguments) {
 }
 
 void run(const std::vector<std::string>& command) {
-  const std::array verbs = {extract_verb(),    inspect_verb(),      suggest_verb(),
-                            sweep_verb(),      study_verb(),        render_verb(),
-                            devices_verb(),    help_options_verb(), help_pictures_verb(),
+  const std::array verbs = {extract_verb(),      inspect_verb(),       suggest_verb(),
+                            sweep_verb(),        study_verb(),         render_verb(),
+                            forest_verb(),       scatter_verb(),       devices_verb(),
+                            help_options_verb(), help_forests_verb(), help_pictures_verb(),
                             help_styles_verb()};
   const std::vector<Flag> flags = help_flags();
   Arguments arguments;
@@ -108,9 +109,9 @@ void run(const std::vector<std::string>& command) {
   refuse_extras(app.get_subcommand(std::string(verb->name))->remaining(), *verb);
   if ((verb->takes_tree && arguments.tree.empty()) ||
       (verb->takes_trees && arguments.trees.empty())) {
-    throw Error(
-        ErrorCode::usage, "no TREE is given",
-        "Give a .glb, .gltf or .obj file: leafhull " + std::string(verb->name) + " tree.glb.");
+    throw Error(ErrorCode::usage, "no " + std::string(verb->operand) + " is given",
+                "Give " + std::string(verb->operand_help) + ": leafhull " +
+                    std::string(verb->name) + " " + std::string(verb->operand_example) + ".");
   }
   verb->run(arguments);
 }
@@ -123,17 +124,12 @@ int exit_code(const std::vector<std::string>& command) {
                   "Look at the disk or the pipe it goes to.");
     }
     return 0;
-  } catch (const Error& error) {
+  } catch (const std::exception&) {
     std::cout.flush();
-    print_error(error.what(), error.remedy());
-    return static_cast<int>(error.code());
-  } catch (const std::bad_alloc&) {
-    print_error("out of memory", "Try a lower --resolution.");
-  } catch (const std::exception& error) {
-    print_error("internal error: " + std::string(error.what()),
-                "Please report it with the command and the tree.");
+    const Failure failure = current_failure();
+    print_error(failure.what, failure.remedy);
+    return failure.exit_code;
   }
-  return static_cast<int>(ErrorCode::internal);
 }
 
 }  // namespace

@@ -18,10 +18,17 @@ std::array<char, 4096> words;
 std::atomic<std::size_t> words_size = 0;
 static_assert(std::atomic<std::size_t>::is_always_lock_free);
 
+void say_words() noexcept {
+  [[maybe_unused]] const auto written = write(STDERR_FILENO, words.data(), words_size);
+}
+
+std::atomic<void (*)() noexcept> say_last_words = say_words;
+static_assert(decltype(say_last_words)::is_always_lock_free);
+
 extern "C" void clean_up_and_die(int signal) {
   discard_unfinished_outputs();
   clear_progress();
-  [[maybe_unused]] const auto written = write(STDERR_FILENO, words.data(), words_size);
+  say_last_words.load()();
   std::signal(signal, SIG_DFL);
   std::raise(signal);
 }
@@ -32,6 +39,11 @@ void catch_signals(std::string_view last_words) {
   const std::size_t size = std::min(last_words.size(), words.size());
   std::copy_n(last_words.begin(), size, words.begin());
   words_size = size;
+  catch_signals(say_words);
+}
+
+void catch_signals(void (*say)() noexcept) {
+  say_last_words = say;
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     // What the parent has ignored (nohup, a background job) stays ignored.
     if (std::signal(signal, clean_up_and_die) == SIG_IGN) std::signal(signal, SIG_IGN);

@@ -129,6 +129,28 @@ double real_number(std::string_view flag, const std::string& text, double low, d
   return value;
 }
 
+std::uint64_t byte_count(std::string_view flag, const std::string& text, std::uint64_t low) {
+  constexpr std::string_view kUnits = "KMGT";
+  constexpr double kMost = 1LL << 60;
+  std::string_view digits = text;
+  double unit = 1;
+  if (!text.empty()) {
+    const std::size_t power =
+        kUnits.find(static_cast<char>(std::toupper(static_cast<unsigned char>(text.back()))));
+    if (power != std::string_view::npos) {
+      unit = std::exp2(10 * static_cast<double>(power + 1));
+      digits.remove_suffix(1);
+    }
+  }
+  const double size = parsed<double>(digits).value_or(-1) * unit;
+  if (std::isnan(size) || size < 0 || size >= kMost) {
+    refuse(flag, text, "is not a size", "Give bytes, or a number with K, M, G or T, such as 4G.");
+  }
+  const auto whole = static_cast<std::uint64_t>(size);
+  if (whole < low) refuse(flag, text, "is too little", "Give " + bytes(low) + " or more.");
+  return whole;
+}
+
 std::size_t choice(std::string_view flag, std::string_view text,
                    std::span<const std::string_view> valid) {
   const auto found = std::find(valid.begin(), valid.end(), text);
@@ -163,6 +185,12 @@ std::string joined(std::span<const std::string_view> words, std::string_view sep
 std::string number(double value, int digits) { return print("%.*g", digits, value); }
 
 std::string seconds(double value) { return print("%.*f s", value < 1 ? 3 : 2, value); }
+
+std::string bytes(std::uint64_t value) {
+  const double mebibytes = std::ldexp(static_cast<double>(value), -20);
+  return mebibytes < 1024 ? print("%.*f MiB", 0, mebibytes)
+                          : print("%.*g GiB", 3, mebibytes / 1024);
+}
 
 std::string count(std::uint64_t value) {
   std::string text = std::to_string(value);

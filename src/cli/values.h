@@ -20,6 +20,10 @@ int whole_number(std::string_view flag, const std::string& text, int low, int hi
 /// @throws Error usage: `text` is no number from `low` to `high`.
 double real_number(std::string_view flag, const std::string& text, double low, double high);
 
+/// Bytes: 4G, 512M, 1.5g or a plain number; K, M, G and T count in powers of 1024.
+/// @throws Error usage: not such a size, or below `low`.
+std::uint64_t byte_count(std::string_view flag, const std::string& text, std::uint64_t low);
+
 /// The index of `text` among `valid`.
 /// @throws Error usage: it is none of them; the nearest is suggested.
 std::size_t choice(std::string_view flag, std::string_view text,
@@ -36,5 +40,6 @@ std::string quoted(const std::string& word);
 std::string number(double value, int digits = 6);  ///< at most so many significant digits
 std::string count(std::uint64_t value);            ///< 1,234,567
 std::string seconds(double value);                 ///< 0.123 s
+std::string bytes(std::uint64_t value);            ///< 512 MiB, 1.5 GiB
 
 }  // namespace leafhull::cli

@@ -14,7 +14,8 @@ struct Verb {
   std::string_view name, summary, about, examples;
   bool takes_tree = false;
   bool takes_trees = false;  ///< one or more
-  std::string_view operand = "TREE", operand_help = "a .glb, .gltf or .obj file";
+  std::string_view operand = "TREE", operand_help = "a .glb, .gltf or .obj file",
+                   operand_example = "tree.glb";
   bool hidden = false;
   std::vector<Flag> flags;
   void (*run)(const Arguments&) = nullptr;
@@ -26,8 +27,11 @@ Verb sweep_verb();
 Verb suggest_verb();
 Verb study_verb();
 Verb render_verb();
+Verb forest_verb();
+Verb scatter_verb();
 Verb devices_verb();
 Verb help_options_verb();
+Verb help_forests_verb();
 Verb help_pictures_verb();
 Verb help_styles_verb();
 

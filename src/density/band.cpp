@@ -29,7 +29,7 @@ Found search(Descent& descent, Coord root, const BandOptions& options) {
   Found found;
   descent.from(root, [&](const Block& block, std::span<const std::uint32_t> near,
                          const Descent::Bounds& bounds) {
-    if (near.empty()) return false;
+    if (near.empty() || (options.range && !options.range->meets(block))) return false;
     const std::size_t reached = up_to(bounds.low, options.thresholds);
     const bool decided = reached == up_to(bounds.high, options.thresholds);
     if (decided && !options.thresholds.empty()) {
@@ -46,7 +46,10 @@ Found search(Descent& descent, Coord root, const BandOptions& options) {
 
 std::vector<InsideBlock> find_band(const KernelSet& kernels, const BandOptions& options,
                                    const BandVisitor& visit) {
-  const std::vector<Coord> roots = kernels.root_blocks(options.margin);
+  std::vector<Coord> roots = kernels.root_blocks(options.margin);
+  if (options.range) {
+    std::erase_if(roots, [&](Coord root) { return !options.range->meets({root, kRootEdge}); });
+  }
   tbb::enumerable_thread_specific<Descent> descents(
       [&] { return Descent(kernels, options.falloff, options.margin); });
   std::vector<InsideBlock> inside;

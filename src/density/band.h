@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "density/descent.h"
@@ -14,6 +15,8 @@ struct BandOptions {
   std::vector<double> thresholds = {};
   int falloff = 2;  ///< k
   int margin = 1;   ///< voxels by which a block is grown before it is decided
+  /// Blocks that lie outside of it are passed over.
+  std::optional<SampleBox> range = {};
 };
 
 /// Called with bricks to evaluate, in ascending order of their root blocks, and with the share of

@@ -28,11 +28,15 @@ DensityStatistics density_statistics(std::span<const float> isotropic_density,
   for (const float n : isotropic_density) s.mean += n;
   s.mean /= count;
   for (const float n : isotropic_density) s.variance += (n - s.mean) * (n - s.mean);
-  s.variance /= count;
-  const double spread = resolved.spread == Spread::stddev ? std::sqrt(s.variance) : s.variance;
-  s.p1 = s.mean + resolved.band_low * spread;
-  s.p2 = s.mean + resolved.band_high * spread;
-  return s;
+  return band(s.mean, s.variance / count, resolved);
+}
+
+DensityStatistics band(double mean, double variance, const Options& resolved) {
+  const double spread = resolved.spread == Spread::stddev ? std::sqrt(variance) : variance;
+  return {.mean = mean,
+          .variance = variance,
+          .p1 = mean + resolved.band_low * spread,
+          .p2 = mean + resolved.band_high * spread};
 }
 
 std::vector<Kernel> isotropic_kernels(std::span<const LeafVertex> leaves, double radius_max) {
@@ -54,22 +58,29 @@ std::vector<Kernel> controlled_kernels(std::span<const LeafVertex> leaves,
                                        std::span<const float> isotropic_density,
                                        const DensityStatistics& statistics, double radius_max,
                                        const Options& resolved) {
-  if (resolved.method == Method::isotropic) return isotropic_kernels(leaves, radius_max);
-  const double flatness = *resolved.flatness;
   std::vector<Kernel> kernels;
   kernels.reserve(leaves.size());
   for (std::size_t j = 0; j < leaves.size(); ++j) {
-    const double share =
-        resolved.method == Method::uncontrolled ? 1 : anisotropy(isotropic_density[j], statistics);
-    const auto radius = [&](double of_leaf) {
-      const double r = radius_max + (of_leaf - radius_max) * share;
-      return std::max(r, kSmallestRadius * radius_max);
-    };
-    const double minor = leaves[j].radius_minor;
-    kernels.push_back(kernel_at(
-        leaves[j], {radius(leaves[j].radius_major), radius(minor), radius(flatness * minor)}));
+    kernels.push_back(
+        controlled_kernel(leaves[j], isotropic_density[j], statistics, radius_max, resolved));
   }
   return kernels;
+}
+
+Kernel controlled_kernel(const LeafVertex& leaf, float density, const DensityStatistics& statistics,
+                         double radius_max, const Options& resolved) {
+  if (resolved.method == Method::isotropic) {
+    return kernel_at(leaf, {radius_max, radius_max, radius_max});
+  }
+  const double share =
+      resolved.method == Method::uncontrolled ? 1 : anisotropy(density, statistics);
+  const auto radius = [&](double of_leaf) {
+    const double r = radius_max + (of_leaf - radius_max) * share;
+    return std::max(r, kSmallestRadius * radius_max);
+  };
+  const double minor = leaf.radius_minor;
+  return kernel_at(leaf,
+                   {radius(leaf.radius_major), radius(minor), radius(*resolved.flatness * minor)});
 }
 
 double threshold_for_coverage(std::span<const float> density, double coverage) {

@@ -16,6 +16,9 @@ namespace leafhull {
 DensityStatistics density_statistics(std::span<const float> isotropic_density,
                                      const Options& resolved);
 
+/// The same from a mean and a variance.
+DensityStatistics band(double mean, double variance, const Options& resolved);
+
 /// The kernels that measure N_iso: radius `radius_max` (model units) in every direction.
 std::vector<Kernel> isotropic_kernels(std::span<const LeafVertex> leaves, double radius_max);
 
@@ -26,6 +29,10 @@ std::vector<Kernel> controlled_kernels(std::span<const LeafVertex> leaves,
                                        std::span<const float> isotropic_density,
                                        const DensityStatistics& statistics, double radius_max,
                                        const Options& resolved);
+
+/// One of them, for a leaf vertex with N_iso = `density` there.
+Kernel controlled_kernel(const LeafVertex& leaf, float density, const DensityStatistics& statistics,
+                         double radius_max, const Options& resolved);
 
 /// The share of anisotropy at density n, 0 at p1 and below to 1 at p2 and above. Source: Eq. (8).
 double anisotropy(double n, const DensityStatistics& statistics);

@@ -28,6 +28,16 @@ struct Block {
   int edge = kBrickEdge;
 };
 
+/// Samples, or the cells above them: from `low` up to and without `high`.
+struct SampleBox {
+  Coord low, high;
+  bool meets(const Block& block) const {
+    const Coord o = block.origin;
+    return o.x < high.x && o.y < high.y && o.z < high.z && o.x + block.edge > low.x &&
+           o.y + block.edge > low.y && o.z + block.edge > low.z;
+  }
+};
+
 /// A block that is proven to be inside of N = threshold.
 struct InsideBlock {
   Block block;

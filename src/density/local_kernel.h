@@ -23,24 +23,44 @@ inline constexpr float kPositionSlack = 1e-5f;
 inline constexpr float kDistanceSlack = 4e-7f;
 inline constexpr float kXiSlack = 1e-4f;
 
+inline bool is_isotropic(const Kernel& kernel) {
+  return kernel.radius_major == kernel.radius_minor && kernel.radius_major == kernel.radius_normal;
+}
+
+/// A kernel's axes over their radii, model units: xi(p) = (u.d)^2 + (v.d)^2 + (n.d)^2.
+struct KernelForm {
+  Vec3d u, v, n;
+};
+
+inline KernelForm form_of(const Kernel& kernel) {
+  const Vec3d major(kernel.major), normal(kernel.normal);
+  const auto over = [](Vec3d direction, float radius) {
+    return direction / static_cast<double>(radius);
+  };
+  return {over(major, kernel.radius_major), over(cross(normal, major), kernel.radius_minor),
+          over(normal, kernel.radius_normal)};
+}
+
+/// A kernel around `centre`, model units, without its form.
+inline LatticeKernel to_lattice(Vec3d centre, const Lattice& lattice) {
+  const Vec3d local = lattice.local(centre);
+  const Coord cell = cell_of(local);
+  return {cell, Vec3f(local - to_vec3d(cell)), 0, 0, 0, 0, 0, 0};
+}
+
+/// A sphere.
+inline LatticeKernel to_lattice(Vec3d centre, double radius, const Lattice& lattice) {
+  LatticeKernel local = to_lattice(centre, lattice);
+  local.xx = local.yy = local.zz = static_cast<float>(lattice.voxel_size / radius);
+  return local;
+}
+
 /// U comes from the axes by Gram-Schmidt on their columns, the R of a QR decomposition: unlike a
 /// Cholesky factor of U^T U it keeps its digits where a kernel is thin.
-inline LatticeKernel to_lattice(const Kernel& kernel, const Lattice& lattice) {
-  const Vec3d centre = lattice.local(kernel.centre);
-  const Coord cell = cell_of(centre);
-  LatticeKernel local{cell, Vec3f(centre - to_vec3d(cell)), 0, 0, 0, 0, 0, 0};
-  if (kernel.radius_major == kernel.radius_minor && kernel.radius_major == kernel.radius_normal) {
-    local.xx = local.yy = local.zz =
-        static_cast<float>(lattice.voxel_size / static_cast<double>(kernel.radius_major));
-    return local;
-  }
-  const Vec3d major(kernel.major), normal(kernel.normal);
-  const auto over = [&](Vec3d direction, float radius) {
-    return direction * (lattice.voxel_size / static_cast<double>(radius));
-  };
-  const Vec3d u = over(major, kernel.radius_major);
-  const Vec3d v = over(cross(normal, major), kernel.radius_minor);
-  const Vec3d n = over(normal, kernel.radius_normal);
+inline LatticeKernel to_lattice(Vec3d centre, const KernelForm& form, const Lattice& lattice) {
+  LatticeKernel local = to_lattice(centre, lattice);
+  const Vec3d u = form.u * lattice.voxel_size, v = form.v * lattice.voxel_size,
+              n = form.n * lattice.voxel_size;
   const Vec3d x(u.x, v.x, n.x);
   Vec3d y(u.y, v.y, n.y), z(u.z, v.z, n.z);
 
@@ -53,6 +73,12 @@ inline LatticeKernel to_lattice(const Kernel& kernel, const Lattice& lattice) {
   local.xz = static_cast<float>(xz), local.yy = static_cast<float>(yy);
   local.yz = static_cast<float>(yz), local.zz = static_cast<float>(length(z));
   return local;
+}
+
+inline LatticeKernel to_lattice(const Kernel& kernel, const Lattice& lattice) {
+  return is_isotropic(kernel)
+             ? to_lattice(kernel.centre, static_cast<double>(kernel.radius_major), lattice)
+             : to_lattice(kernel.centre, form_of(kernel), lattice);
 }
 
 }  // namespace leafhull

@@ -18,15 +18,22 @@ using Leaf = Grid::TreeType::LeafNodeType;
 struct Centres {
   using PosType = openvdb::Vec3d;
 
-  std::span<const Kernel> kernels;
+  std::span<const Vec3d> centres;
   const Lattice& cells;
 
-  std::size_t size() const { return kernels.size(); }
+  std::size_t size() const { return centres.size(); }
   void getPos(std::size_t n, PosType& position) const {
-    const Vec3d p = cells.local(kernels[n].centre);
+    const Vec3d p = cells.local(centres[n]);
     position = {p.x, p.y, p.z};
   }
 };
+
+std::vector<Vec3d> centres_of(std::span<const Kernel> kernels) {
+  std::vector<Vec3d> centres(kernels.size());
+  std::transform(kernels.begin(), kernels.end(), centres.begin(),
+                 [](const Kernel& kernel) { return kernel.centre; });
+  return centres;
+}
 
 }  // namespace
 
@@ -41,11 +48,14 @@ struct SpatialHash::Node {
   std::uint32_t end_of(int cell) const { return first + end[cell]; }
 };
 
-SpatialHash::SpatialHash(std::span<const Kernel> kernels, const Lattice& cells) : cells_(cells) {
+SpatialHash::SpatialHash(std::span<const Kernel> kernels, const Lattice& cells)
+    : SpatialHash(centres_of(kernels), cells) {}
+
+SpatialHash::SpatialHash(std::span<const Vec3d> centres, const Lattice& cells) : cells_(cells) {
   const auto transform = openvdb::math::Transform::createLinearTransform(1.0);
   transform->postTranslate(openvdb::Vec3d(0.5));  // cells start at whole numbers
   const Grid::Ptr grid =
-      openvdb::tools::createPointIndexGrid<Grid>(Centres{kernels, cells_}, *transform);
+      openvdb::tools::createPointIndexGrid<Grid>(Centres{centres, cells_}, *transform);
 
   std::vector<const Leaf*> leaves;
   grid->tree().getNodes(leaves);

@@ -16,9 +16,11 @@ struct ModelShape {
   Mesh mesh;  ///< without vertices: its trees are left out
 };
 
-/// A GLB with each shape once and a node per model that places it by EXT_mesh_gpu_instancing.
-/// Trees whose map is no rotation and scale (sheared ones) become nodes with a matrix of their
-/// own, as do those that mirror.
+/// A GLB with each shape once and nodes of its name that place it by EXT_mesh_gpu_instancing: one
+/// per model, or more where a forest is so wide that floats would move a tree by more than
+/// 1/100,000 of its size; then each places the trees near to it. Trees keep their order within a
+/// node. Those that mirror become nodes of their own, since viewers turn faces around by node and
+/// not by instance, as do those that shear: a rotation and a scale, and a rotation within.
 /// @throws Error output: it does not fit into a GLB.
 void write_instances(std::span<const ModelShape> shapes, std::span<const PlacedTree> trees,
                      std::ostream& stream);

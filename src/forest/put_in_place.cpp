@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <tbb/parallel_for.h>
+
 #include <set>
 #include <utility>
 
@@ -76,13 +78,15 @@ FinishedForest put_in_place(const Store& store, std::span<const TileId> ids, int
   FinishedForest forest;
   forest.dropped_components = dropped.count;
 
-  std::vector<PlacedTile> placed;
+  std::vector<PlacedTile> placed(tiles.size());
+  tbb::parallel_for(std::size_t{0}, tiles.size(), [&](std::size_t t) {
+    const auto& pieces = dropped.of_tile[t];
+    placed[t] = pieces.empty() ? place_whole(tiles, t) : place_rest(tiles, t, pieces);
+  });
   std::set<fs::path> folders;
   for (std::size_t t = 0; t < tiles.size(); ++t) {
-    const auto& pieces = dropped.of_tile[t];
-    placed.push_back(pieces.empty() ? place_whole(tiles, t) : place_rest(tiles, t, pieces));
-    if (placed.back().triangles == 0) continue;
-    forest.tiles.push_back(finished(tiles[t].id, placed.back()));
+    if (placed[t].triangles == 0) continue;
+    forest.tiles.push_back(finished(tiles[t].id, placed[t]));
     folders.insert(tiles.folder().tile(tiles[t].id).parent_path());
   }
   for (const fs::path& folder : folders) sync_folder(folder);

@@ -20,7 +20,7 @@ struct TileId {
 };
 
 /// A volume in 1 / 2^39 voxels, times twelve: exact, so that parts add up in any order.
-__extension__ typedef __int128 ExactVolume;
+__extension__ typedef __int128 ExactVolume;  // NOLINT(modernize-use-using)
 
 /// A vertex that two tiles may share: the cell of the global lattice that holds it, and which of
 /// the vertices there.
@@ -30,10 +30,10 @@ struct SeamVertex {
   std::uint32_t vertex = 0;     ///< in the tile's mesh
   std::uint32_t component = 0;  ///< into TileSurface::components
   std::strong_ordering operator<=>(const SeamVertex& other) const {
-    if (const auto c = cell <=> other.cell; c != 0) return c;
+    if (const auto c = cell <=> other.cell; std::is_neq(c)) return c;
     return patch <=> other.patch;
   }
-  bool operator==(const SeamVertex& other) const { return (*this <=> other) == 0; }
+  bool operator==(const SeamVertex& other) const { return std::is_eq(*this <=> other); }
 };
 
 /// A piece of surface that goes on in another tile.

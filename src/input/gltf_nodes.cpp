@@ -34,15 +34,6 @@ Transform compose(Vec3d t, Quaternion q, Vec3d s) {
         t.z}}};
 }
 
-bool is_finite(const Transform& transform) {
-  for (const auto& row : transform) {
-    for (const double entry : row) {
-      if (!std::isfinite(entry)) return false;
-    }
-  }
-  return true;
-}
-
 Transform local_transform(const tinygltf::Node& node) {
   if (!node.matrix.empty()) {
     Transform rows{};
@@ -62,9 +53,10 @@ Transform local_transform(const tinygltf::Node& node) {
                  vec3(node.scale, {1, 1, 1}));
 }
 
-// The transforms of EXT_mesh_gpu_instancing, relative to the node.
-std::vector<Transform> copies_of(GltfFile& file, const tinygltf::Value& extension,
-                                 const std::string& place) {
+// Visits the transforms of EXT_mesh_gpu_instancing, relative to the node: visit(copy, transform).
+template <class Visit>
+void visit_copies(GltfFile& file, const tinygltf::Value& extension, const std::string& place,
+                  Visit&& visit) {
   const tinygltf::Value& attributes = extension.Get("attributes");
   const auto accessor = [&](const char* name) { return integer(attributes, name, -1); };
   const int translation = accessor("TRANSLATION"), rotation = accessor("ROTATION");
@@ -81,18 +73,12 @@ std::vector<Transform> copies_of(GltfFile& file, const tinygltf::Value& extensio
     file.fail(place, "its attributes differ in count");
   }
 
-  std::vector<Transform> copies;
-  copies.reserve(count);
   for (std::size_t i = 0; i < count; ++i) {
     Quaternion q{0, 0, 0, 1};
     if (rotation >= 0) std::ranges::copy(rotations[i], q.begin());
-    copies.push_back(compose(translation >= 0 ? Vec3d(translations[i]) : Vec3d(0, 0, 0), q,
-                             scale >= 0 ? Vec3d(scales[i]) : Vec3d(1, 1, 1)));
-    if (!is_finite(copies.back())) {
-      file.fail(place, "copy " + std::to_string(i) + " has a transform that is not finite");
-    }
+    visit(i, compose(translation >= 0 ? Vec3d(translations[i]) : Vec3d(0, 0, 0), q,
+                     scale >= 0 ? Vec3d(scales[i]) : Vec3d(1, 1, 1)));
   }
-  return copies;
 }
 
 std::vector<int> root_nodes(const GltfFile& file) {
@@ -117,7 +103,7 @@ std::vector<int> root_nodes(const GltfFile& file) {
   return roots;
 }
 
-/// Every node of the scene in depth-first order: visit(node, place, to_world).
+/// Every node of the scene in depth-first order: visit(index, node, to_world).
 template <class Visit>
 void walk(const GltfFile& file, Visit&& visit) {
   struct Stop {
@@ -134,49 +120,72 @@ void walk(const GltfFile& file, Visit&& visit) {
   while (!stack.empty()) {
     const auto [index, parent] = stack.back();
     stack.pop_back();
-    const std::string place = place_of("nodes", index);
-    if (!is_index(index, visited.size())) file.fail("nodes", "there is no " + place);
+    if (!is_index(index, visited.size())) {
+      file.fail("nodes", "there is no " + place_of("nodes", index));
+    }
     if (visited[index]) {
-      file.fail(place, "is reached twice: the nodes have a cycle or a node has two parents");
+      file.fail(place_of("nodes", index),
+                "is reached twice: the nodes have a cycle or a node has two parents");
     }
     visited[index] = true;
 
     const tinygltf::Node& node = file.model.nodes[index];
     const Transform to_world = parent * local_transform(node);
-    if (!is_finite(to_world)) file.fail(place, "has a transform that is not finite");
     push(node.children, to_world);
-    visit(node, place, to_world);
+    visit(index, node, to_world);
   }
 }
 
 }  // namespace
 
-std::vector<PlacedMesh> place_meshes(GltfFile& file) {
-  std::vector<PlacedMesh> placements;
-  walk(file, [&](const tinygltf::Node& node, const std::string& place, const Transform& to_world) {
+std::string place_of(const PlacedMesh& placed) {
+  std::string place = place_of("nodes", placed.node);
+  if (!placed.copy) return place;
+  return place + ", EXT_mesh_gpu_instancing, copy " + std::to_string(*placed.copy);
+}
+
+bool is_finite(const Transform& transform) {
+  for (const auto& row : transform) {
+    for (const double entry : row) {
+      if (!std::isfinite(entry)) return false;
+    }
+  }
+  return true;
+}
+
+std::set<int> placed_meshes(const GltfFile& file) {
+  std::set<int> meshes;
+  walk(file, [&](int index, const tinygltf::Node& node, const Transform&) {
     if (node.mesh < 0) return;
     if (!is_index(node.mesh, file.model.meshes.size())) {
-      file.fail(place, "there is no " + place_of("meshes", node.mesh));
+      file.fail(place_of("nodes", index), "there is no " + place_of("meshes", node.mesh));
     }
-    if (const auto* extension = find_extension(node.extensions, "EXT_mesh_gpu_instancing")) {
-      for (const Transform& copy :
-           copies_of(file, *extension, place + ", EXT_mesh_gpu_instancing")) {
-        placements.push_back({node.mesh, node.name, to_world * copy});
-      }
-    } else {
-      placements.push_back({node.mesh, node.name, to_world});
-    }
+    meshes.insert(node.mesh);
   });
-  return placements;
+  return meshes;
+}
+
+void place_meshes(GltfFile& file, const std::function<void(const PlacedMesh&)>& place) {
+  walk(file, [&](int index, const tinygltf::Node& node, const Transform& to_world) {
+    if (node.mesh < 0) return;
+    const auto* copies = find_extension(node.extensions, "EXT_mesh_gpu_instancing");
+    if (!copies) return place({node.mesh, index, node.name, {}, to_world});
+    visit_copies(file, *copies, place_of("nodes", index) + ", EXT_mesh_gpu_instancing",
+                 [&](std::size_t copy, const Transform& in_node) {
+                   place({node.mesh, index, node.name, copy, to_world * in_node});
+                 });
+  });
 }
 
 std::vector<PlacedCamera> place_cameras(const GltfFile& file) {
   std::vector<PlacedCamera> placements;
-  walk(file, [&](const tinygltf::Node& node, const std::string& place, const Transform& to_world) {
+  walk(file, [&](int index, const tinygltf::Node& node, const Transform& to_world) {
     if (node.camera < 0) return;
+    const std::string place = place_of("nodes", index);
     if (!is_index(node.camera, file.cameras.size())) {
       file.fail(place, "there is no " + place_of("cameras", node.camera));
     }
+    if (!is_finite(to_world)) file.fail(place, "has a transform that is not finite");
     placements.push_back({node.camera, place, to_world});
   });
   return placements;

@@ -177,18 +177,24 @@ double mean_radius_major(const LeafSet& leaves) {
 }  // namespace
 
 LeafSet find_leaves(const TreeModel& tree, const LeafOptions& options) {
+  return find_leaves(tree, tree.instances, options);
+}
+
+LeafSet find_leaves(const TreeModel& tree, std::span<const Instance> instances,
+                    const LeafOptions& options) {
   check(options);
   LeafSet leaves;
-  const std::vector<std::uint32_t> selected = select_leaves(tree, options, leaves.warnings);
+  const std::vector<std::uint32_t> selected =
+      select_leaves(tree, instances, options, leaves.warnings);
 
   LeafCollector collector(tree, options, leaves);
   for (auto first = selected.begin(); first != selected.end();) {
-    const std::uint32_t index = tree.instances[*first].primitive;
+    const std::uint32_t index = instances[*first].primitive;
     const Primitive& primitive = tree.primitives[index];
     const WeldedMesh mesh = weld(primitive);
     const FaceGroups components = connected_components(mesh);
-    for (; first != selected.end() && tree.instances[*first].primitive == index; ++first) {
-      collector.take(primitive, mesh, components, tree.instances[*first].to_world);
+    for (; first != selected.end() && instances[*first].primitive == index; ++first) {
+      collector.take(primitive, mesh, components, instances[*first].to_world);
     }
   }
   if (leaves.vertices.empty()) {

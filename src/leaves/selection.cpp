@@ -42,16 +42,6 @@ bool matches(const char* glob, const Names& names) {
   });
 }
 
-bool is_leaf(const TreeModel& tree, const Instance& instance, const LeafOptions& options) {
-  const Names names = names_of(tree, instance);
-  if (!options.globs.empty()) {
-    return std::ranges::any_of(
-        options.globs, [&](const std::string& glob) { return matches(glob.c_str(), names); });
-  }
-  return alpha_mode_of(tree, instance) != AlphaMode::opaque ||
-         std::ranges::any_of(kUsualNames, [&](const char* glob) { return matches(glob, names); });
-}
-
 /// A name fit for a message of one line: control characters become ?, which also matches them.
 std::string printable(std::string_view name) {
   std::string text(name);
@@ -61,10 +51,10 @@ std::string printable(std::string_view name) {
 }
 
 /// "materials bark, twig; meshes trunk; nodes tree", each name once.
-std::string list_names(const TreeModel& tree) {
+std::string list_names(const TreeModel& tree, std::span<const Instance> instances) {
   static constexpr std::array kKinds{"materials", "meshes", "nodes"};
   std::array<std::set<std::string_view>, 3> distinct;
-  for (const Instance& instance : tree.instances) {
+  for (const Instance& instance : instances) {
     const Names names = names_of(tree, instance);
     for (std::size_t kind = 0; kind < names.size(); ++kind) {
       if (!names[kind].empty()) distinct[kind].insert(names[kind]);
@@ -89,9 +79,10 @@ std::string list_names(const TreeModel& tree) {
   return list.empty() ? "nothing in it has a name" : "it holds " + list;
 }
 
-[[noreturn]] void throw_no_leaves(const TreeModel& tree, const LeafOptions& options) {
+[[noreturn]] void throw_no_leaves(const TreeModel& tree, std::span<const Instance> instances,
+                                  const LeafOptions& options) {
   const std::string file = tree.path.empty() ? "the tree" : tree.path.string();
-  if (tree.instances.empty()) {
+  if (instances.empty()) {
     throw Error(ErrorCode::input, file + " holds no triangles",
                 "Export the tree as triangle meshes.");
   }
@@ -99,11 +90,21 @@ std::string list_names(const TreeModel& tree) {
                            ? ": no masked or blended material and no name with leaf, leaves, "
                              "foliage or needle; "
                            : ": --leaves matches no material, mesh or node; ";
-  throw Error(ErrorCode::input, "no leaves in " + file + reason + list_names(tree),
+  throw Error(ErrorCode::input, "no leaves in " + file + reason + list_names(tree, instances),
               "Name the leaves with --leaves GLOB.");
 }
 
 }  // namespace
+
+bool is_leaf(const TreeModel& tree, const Instance& instance, const LeafOptions& options) {
+  const Names names = names_of(tree, instance);
+  if (!options.globs.empty()) {
+    return std::ranges::any_of(
+        options.globs, [&](const std::string& glob) { return matches(glob.c_str(), names); });
+  }
+  return alpha_mode_of(tree, instance) != AlphaMode::opaque ||
+         std::ranges::any_of(kUsualNames, [&](const char* glob) { return matches(glob, names); });
+}
 
 std::vector<PrimitiveSummary> summarize(const TreeModel& tree, const LeafOptions& options) {
   std::vector<std::vector<PrimitiveSummary>> by_primitive(tree.primitives.size());
@@ -126,20 +127,21 @@ std::vector<PrimitiveSummary> summarize(const TreeModel& tree, const LeafOptions
   return summary;
 }
 
-std::vector<std::uint32_t> select_leaves(const TreeModel& tree, const LeafOptions& options,
+std::vector<std::uint32_t> select_leaves(const TreeModel& tree, std::span<const Instance> instances,
+                                         const LeafOptions& options,
                                          std::vector<std::string>& warnings) {
-  std::vector<std::uint32_t> selected(tree.instances.size());
+  std::vector<std::uint32_t> selected(instances.size());
   std::iota(selected.begin(), selected.end(), 0u);
-  std::erase_if(selected, [&](auto i) { return !is_leaf(tree, tree.instances[i], options); });
-  if (selected.empty()) throw_no_leaves(tree, options);
+  std::erase_if(selected, [&](auto i) { return !is_leaf(tree, instances[i], options); });
+  if (selected.empty()) throw_no_leaves(tree, instances, options);
 
   for (const std::string& glob : options.globs) {
     const bool used = std::ranges::any_of(selected, [&](std::uint32_t i) {
-      return matches(glob.c_str(), names_of(tree, tree.instances[i]));
+      return matches(glob.c_str(), names_of(tree, instances[i]));
     });
     if (!used) warnings.push_back("--leaves " + glob + " matches no material, mesh or node");
   }
-  std::ranges::stable_sort(selected, {}, [&](auto i) { return tree.instances[i].primitive; });
+  std::ranges::stable_sort(selected, {}, [&](auto i) { return instances[i].primitive; });
   return selected;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -9,10 +10,11 @@
 
 namespace leafhull {
 
-/// The instances that are leaves, those of one primitive side by side; a pattern that matches
+/// Which of some instances are leaves, those of one primitive side by side; a pattern that matches
 /// nothing is named in `warnings`.
 /// @throws Error input where nothing matches.
-std::vector<std::uint32_t> select_leaves(const TreeModel& tree, const LeafOptions& options,
+std::vector<std::uint32_t> select_leaves(const TreeModel& tree, std::span<const Instance> instances,
+                                         const LeafOptions& options,
                                          std::vector<std::string>& warnings);
 
 }  // namespace leafhull

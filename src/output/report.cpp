@@ -43,13 +43,9 @@ Json to_json_value(const std::optional<Value>& value) {
   return value ? to_json_value(*value) : Json();
 }
 
-/// Every option by name, the ones that an extraction derives as it came to use them.
+/// The options, the ones that an extraction derives as it came to use them.
 Json parameters(const Report& report) {
-  Json parameters;
-  for (const OptionRow& row : option_table()) {
-    parameters[to_key(row.name)] =
-        std::visit([&](auto member) { return to_json_value(report.options.*member); }, row.member);
-  }
+  Json parameters = options_object(report.options);
   parameters["threshold"] = report.threshold;
   parameters["threshold_percent"] = to_json_value(report.options.threshold_percent);
   parameters["coverage"] = to_json_value(report.options.coverage);
@@ -87,16 +83,25 @@ Json metrics(const Metrics& metrics) {
           {"off_site_sampled", metrics.off_site_sampled}};
 }
 
-Json seconds(const std::vector<StageTime>& times) {
+}  // namespace
+
+Json options_object(const Options& options) {
+  Json object;
+  for (const OptionRow& row : option_table()) {
+    object[to_key(row.name)] =
+        std::visit([&](auto member) { return to_json_value(options.*member); }, row.member);
+  }
+  return object;
+}
+
+Json seconds_object(const std::vector<StageTime>& times) {
   Json seconds = Json::object();
   for (const StageTime& time : times) {
     const std::string key = to_key(time.stage);
-    seconds[key] = seconds.value(key, 0.0) + time.seconds;  // a stage may run more than once
+    seconds[key] = seconds.value(key, 0.0) + time.seconds;
   }
   return seconds;
 }
-
-}  // namespace
 
 Json report_object(const Report& report, const RunDescription& run) {
   return {{"schema", "leafhull-report/1"},
@@ -108,7 +113,7 @@ Json report_object(const Report& report, const RunDescription& run) {
           {"counts", counts(report.counts)},
           {"density", density(report.density)},
           {"metrics", metrics(report.metrics)},
-          {"seconds", seconds(report.seconds)},
+          {"seconds", seconds_object(report.seconds)},
           {"peak_memory_bytes", report.peak_memory_bytes},
           {"warnings", report.warnings}};
 }

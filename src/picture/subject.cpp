@@ -62,7 +62,8 @@ Subject finish(std::shared_ptr<Parts> parts, const Surfaces& surfaces) {
 std::vector<const Instance*> wood_of(const TreeModel& tree, const LeafOptions& options) {
   std::vector<std::string> warnings;  // find_leaves has told them
   std::vector<bool> is_leaf(tree.instances.size());
-  for (const std::uint32_t leaf : select_leaves(tree, options, warnings)) is_leaf[leaf] = true;
+  for (const std::uint32_t leaf : select_leaves(tree, tree.instances, options, warnings))
+    is_leaf[leaf] = true;
   std::vector<const Instance*> wood;
   for (std::size_t i = 0; i < tree.instances.size(); ++i) {
     const Instance& instance = tree.instances[i];

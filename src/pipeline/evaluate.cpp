@@ -5,12 +5,22 @@
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
+#include <type_traits>
 
 namespace leafhull {
 namespace {
 
 Coord corner(Coord cell, int i) { return cell + Coord{i >> 2 & 1, i >> 1 & 1, i & 1}; }
+
+/// An offset in a frame as it is added to the frame's origin.
+template <class T>
+Vec3d rounded(Vec3f offset) {
+  if constexpr (std::is_same_v<T, float>) return Vec3d(offset);  // the sum is rounded
+  const auto r = [](float v) { return std::round(std::ldexp(static_cast<double>(v), 20)); };
+  return Vec3d(r(offset.x), r(offset.y), r(offset.z)) * 0x1p-20;
+}
 
 /// Chunk by chunk: the lanes that fill up a chunk repeat one of its points.
 template <class Visit>
@@ -61,11 +71,23 @@ std::vector<float> DensityFunction::interpolated_at(std::span<const Vec3d> point
 DensityFunction::Sampled DensityFunction::sample_band(std::vector<double> thresholds, int margin,
                                                       bool dense, Lists lists,
                                                       const std::function<void(double)>& advance) {
-  Sampled result;
-  result.field = Field(kernels_.lattice(), thresholds.front());
+  Field field(kernels_.lattice(), thresholds.front());
   if (dense) thresholds.clear();
   const BandOptions options{
       .thresholds = std::move(thresholds), .falloff = falloff_, .margin = margin};
+  return sample(options, std::move(field), lists, advance);
+}
+
+DensityFunction::Sampled DensityFunction::sample_band(double threshold, const SampleBox& range) {
+  const BandOptions options{.thresholds = {threshold}, .falloff = falloff_, .range = range};
+  return sample(options, Field(kernels_.lattice(), threshold), Lists::forget, [](double) {});
+}
+
+DensityFunction::Sampled DensityFunction::sample(const BandOptions& options, Field empty,
+                                                 Lists lists,
+                                                 const std::function<void(double)>& advance) {
+  Sampled result;
+  result.field = std::move(empty);
   Field& field = result.field;
   const auto inside = find_band(kernels_, options, [&](const BrickList& bricks, double done) {
     const std::size_t size = bricks.size() * kBrickSamples;
@@ -79,19 +101,30 @@ DensityFunction::Sampled DensityFunction::sample_band(std::vector<double> thresh
   return result;
 }
 
-std::vector<Vec3f> DensityFunction::snap(std::span<Vec3f> points, double threshold, int steps) {
+template <class T>
+std::vector<Vec3f> DensityFunction::snap_points(std::span<Vec3<T>> points, double threshold,
+                                                int steps) {
   std::vector<Vec3f> normals(points.size());
   const auto put = [&](PointBatch& batch) {
     const Evaluator::Normals normal = evaluator_.snap(batch, threshold, steps);
     for_each_lane(batch, [&](std::size_t lane) {
       const std::uint32_t point = batch.index[lane];
-      const Vec3d offset(Vec3f(batch.x[lane], batch.y[lane], batch.z[lane]));
-      points[point] = Vec3f(to_vec3d(batch.chunks[lane / kChunkPoints].origin) + offset);
+      const Vec3f offset(batch.x[lane], batch.y[lane], batch.z[lane]);
+      points[point] =
+          Vec3<T>(to_vec3d(batch.chunks[lane / kChunkPoints].origin) + rounded<T>(offset));
       normals[point] = {normal.x[lane], normal.y[lane], normal.z[lane]};
     });
   };
-  find_kernels_near(kernels_, std::span<const Vec3f>(points), Within::cell, put);
+  find_kernels_near(kernels_, std::span<const Vec3<T>>(points), Within::cell, put);
   return normals;
+}
+
+std::vector<Vec3f> DensityFunction::snap(std::span<Vec3f> points, double threshold, int steps) {
+  return snap_points(points, threshold, steps);
+}
+
+std::vector<Vec3f> DensityFunction::snap(std::span<Vec3d> points, double threshold, int steps) {
+  return snap_points(points, threshold, steps);
 }
 
 }  // namespace leafhull

@@ -21,9 +21,9 @@ class DensityFunction {
   /// `hash` is over the centres of `kernels`.
   DensityFunction(Device& device, std::span<const Kernel> kernels,
                   std::shared_ptr<const SpatialHash> hash, const Lattice& lattice, int falloff)
-      : kernels_(kernels, std::move(hash), lattice),
-        evaluator_(device, kernels_, falloff),
-        falloff_(falloff) {}
+      : DensityFunction(device, KernelSet(kernels, std::move(hash), lattice), falloff) {}
+  DensityFunction(Device& device, KernelSet kernels, int falloff)
+      : kernels_(std::move(kernels)), evaluator_(device, kernels_, falloff), falloff_(falloff) {}
   DensityFunction(const DensityFunction&) = delete;
   DensityFunction& operator=(const DensityFunction&) = delete;
 
@@ -45,14 +45,23 @@ class DensityFunction {
   /// share that is done. The field's own threshold is the lowest.
   Sampled sample_band(std::vector<double> thresholds, int margin, bool dense, Lists lists,
                       const std::function<void(double)>& advance);
+  /// The same for one threshold and the bricks that meet `range`.
+  Sampled sample_band(double threshold, const SampleBox& range);
 
   /// Moves points onto N = threshold within their cells, in at most `steps` steps, and returns the
   /// outward unit normals there, zero where the gradient vanishes.
   std::vector<Vec3f> snap(std::span<Vec3f> points, double threshold, int steps);
+  /// The same, to multiples of 2^-20 voxels, so that a point does not depend on the anchor.
+  std::vector<Vec3f> snap(std::span<Vec3d> points, double threshold, int steps);
 
   const KernelSet& kernels() const { return kernels_; }
 
  private:
+  template <class T>
+  std::vector<Vec3f> snap_points(std::span<Vec3<T>> points, double threshold, int steps);
+  Sampled sample(const BandOptions& options, Field empty, Lists lists,
+                 const std::function<void(double)>& advance);
+
   KernelSet kernels_;
   Evaluator evaluator_;
   int falloff_;

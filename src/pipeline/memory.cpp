@@ -85,6 +85,18 @@ std::uint64_t available_memory() {
   return std::min({meminfo_available(), cgroup_available(), address_space_available()});
 }
 
+std::uint64_t resident_memory() {
+  std::uint64_t pages = 0, resident = 0;
+  std::ifstream("/proc/self/statm") >> pages >> resident;
+  return resident * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
+}
+
+std::uint64_t peak_memory() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
+}
+
 FieldMemory::FieldMemory(std::span<const Kernel> kernels, std::shared_ptr<const SpatialHash> hash,
                          const Box& bounds, const Report& report,
                          std::span<const double> thresholds, std::uint64_t available)

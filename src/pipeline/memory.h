@@ -15,6 +15,11 @@ namespace leafhull {
 /// limit or its address-space limit, whichever is least.
 std::uint64_t available_memory();
 
+/// Bytes of this process that are in memory now.
+std::uint64_t resident_memory();
+/// The most that there were.
+std::uint64_t peak_memory();
+
 /// What a field for all `thresholds`, ascending, and its mesh would take, told before they are
 /// allocated: judged from the bricks that a coarse lattice would evaluate.
 class FieldMemory {

@@ -87,6 +87,7 @@ class Stages {
   /// Of the last sample().
   DensityFunction& density() { return *density_; }
   std::vector<Kernel> take_kernels() { return std::move(kernels_.value); }
+  std::vector<float> take_density_there() { return std::move(density_there_.value); }
   std::vector<float> take_isotropic_density() { return std::move(isotropic_density_.value); }
   std::shared_ptr<const Field> field() const { return sampled_.value.field; }
   std::shared_ptr<const BrickList> lists() const { return sampled_.value.lists; }

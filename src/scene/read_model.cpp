@@ -4,7 +4,8 @@
 namespace leafhull {
 
 LeafSet read_model(const SceneModel& model, const LeafOptions& leaves) {
-  return find_leaves(model.tree ? *model.tree : read_tree(model.file), leaves);
+  if (model.meshes) return find_leaves(*model.meshes, model.instances, leaves);
+  return find_leaves(read_tree(model.file), leaves);
 }
 
 }  // namespace leafhull

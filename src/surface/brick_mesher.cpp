@@ -8,6 +8,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <span>
 #include <utility>
 
 #include "surface/cell_shapes.h"
@@ -107,16 +108,37 @@ constexpr auto kCrossings = [] {
   return crossings;
 }();
 
+/// Fractions of a cell are multiples of this, so that sums with the number of a cell are exact and
+/// a point does not depend on the anchor.
+constexpr float kFractions = 1 << 13;
+
 /// low + fraction, kept below low + 1.
 float within_cell(float low, float fraction) {
-  const float p = low + fraction;
+  const float p = low + std::min(std::floor(fraction * kFractions), kFractions - 1) / kFractions;
   return p < low + 1 ? p : std::nextafter(low + 1, low);
+}
+
+/// What of a brick belongs to the part that is asked for: its faces, perhaps some of its points, or
+/// nothing: it only helps to tell the cells beside it.
+enum class Role { own, upper, beside };
+
+Role role_of(const GridCoord& brick, const SampleBox& own) {
+  bool upper = false;
+  const auto within = [&](int at, int low, int high) {
+    upper = upper || at == high;
+    return at >= low && at <= high;
+  };
+  const bool near = within(brick.x(), own.low.x, own.high.x) &
+                    within(brick.y(), own.low.y, own.high.y) &
+                    within(brick.z(), own.low.z, own.high.z);
+  return !near ? Role::beside : upper ? Role::upper : Role::own;
 }
 
 class Mesher {
  public:
-  explicit Mesher(const Field& field);
-  Polygons mesh();
+  /// `own` is whole without bounds.
+  Mesher(const Field& field, const SampleBox* own);
+  OwnedPolygons mesh();
 
  private:
   void find_neighbours(Index first, Index end);
@@ -134,19 +156,25 @@ class Mesher {
   std::vector<Bits> inside_;
   std::array<float, kBrickSamples> proven_outside_, proven_inside_;
   std::vector<BrickCells> cells_;
+  std::vector<Role> roles_;
 };
 
-Mesher::Mesher(const Field& field)
+Mesher::Mesher(const Field& field, const SampleBox* own)
     : negated_(field.negated()),
       iso_(field.iso_value()),
       bricks_(field.bricks().begin(), field.bricks().end()),
       values_(bricks_.size() + 2),
       inside_(bricks_.size() + 2),
-      cells_(bricks_.size()) {
+      cells_(bricks_.size()),
+      roles_(bricks_.size(), Role::own) {
   tbb::parallel_sort(bricks_,
                      [](const Brick* a, const Brick* b) { return a->origin() < b->origin(); });
   std::transform(bricks_.begin(), bricks_.end(), values_.begin(),
                  [](const Brick* b) { return b->buffer().data(); });
+  if (own) {
+    std::transform(bricks_.begin(), bricks_.end(), roles_.begin(),
+                   [&](const Brick* b) { return role_of(b->origin(), *own); });
+  }
   proven_outside_.fill(negated_.background());
   proven_inside_.fill(-inside_value(field.threshold()));
   values_[bricks_.size()] = proven_outside_.data();
@@ -309,29 +337,79 @@ void Mesher::add_faces(const BrickCells& brick, Quad* faces) const {
   });
 }
 
-Polygons Mesher::mesh() {
+OwnedPolygons Mesher::mesh() {
   const auto bricks = static_cast<Index>(bricks_.size());
   tbb::parallel_for(tbb::blocked_range<Index>(0, bricks), [&](const auto& range) {
     find_neighbours(range.begin(), range.end());
     for (Index b = range.begin(); b < range.end(); ++b) find_cells(b);
   });
+  OwnedPolygons part;
   Index vertices = 0, faces = 0;
-  for (BrickCells& brick : cells_) {
-    vertices += std::exchange(brick.first_vertex, vertices);
-    faces += std::exchange(brick.first_face, faces);
+  for (const Role role : {Role::own, Role::upper}) {
+    for (Index b = 0; b < bricks; ++b) {
+      if (roles_[b] != role) continue;
+      vertices += std::exchange(cells_[b].first_vertex, vertices);
+      if (role == Role::own) faces += std::exchange(cells_[b].first_face, faces);
+    }
+    if (role == Role::own) part.own = vertices;
   }
-  Polygons polygons;
+  Polygons& polygons = part.polygons;
   polygons.points.resize(vertices);
   polygons.faces.resize(faces);
   tbb::parallel_for(Index{0}, bricks, [&](Index b) {
+    if (roles_[b] == Role::beside) return;
     place_vertices(b, polygons.points.data() + cells_[b].first_vertex);
+    if (roles_[b] != Role::own) return;
     add_faces(cells_[b], polygons.faces.data() + cells_[b].first_face);
   });
-  return polygons;
+  return part;
+}
+
+/// Points in one cell follow each other.
+std::vector<std::uint8_t> patches_of(std::span<const Vec3f> points) {
+  std::vector<std::uint8_t> patches(points.size(), 0);
+  for (std::size_t v = 1; v < points.size(); ++v) {
+    if (cell_of(Vec3d(points[v])) != cell_of(Vec3d(points[v - 1]))) continue;
+    patches[v] = static_cast<std::uint8_t>(patches[v - 1] + 1);
+  }
+  return patches;
+}
+
+/// Leaves out the points of others that no face has.
+void drop_unused(OwnedPolygons& part) {
+  Polygons& polygons = part.polygons;
+  const auto points = static_cast<Index>(polygons.points.size());
+  std::vector<Index> moved_to(points - part.own, 0);
+  for (const Quad& face : polygons.faces) {
+    for (const Index v : face) {
+      if (v >= part.own) moved_to[v - part.own] = 1;
+    }
+  }
+  Index next = part.own;
+  for (Index v = part.own; v < points; ++v) {
+    if (moved_to[v - part.own] == 0) continue;
+    polygons.points[next] = polygons.points[v];
+    part.patches[next] = part.patches[v];
+    moved_to[v - part.own] = next++;
+  }
+  polygons.points.resize(next);
+  part.patches.resize(next);
+  tbb::parallel_for(std::size_t{0}, polygons.faces.size(), [&](std::size_t f) {
+    for (Index& v : polygons.faces[f]) {
+      if (v >= part.own) v = moved_to[v - part.own];
+    }
+  });
 }
 
 }  // namespace
 
-Polygons mesh_bricks(const Field& field) { return Mesher(field).mesh(); }
+Polygons mesh_bricks(const Field& field) { return Mesher(field, nullptr).mesh().polygons; }
+
+OwnedPolygons mesh_bricks(const Field& field, const SampleBox& own) {
+  OwnedPolygons part = Mesher(field, &own).mesh();
+  part.patches = patches_of(part.polygons.points);
+  drop_unused(part);
+  return part;
+}
 
 }  // namespace leafhull

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "density/field.h"
 #include "surface/polygonise.h"
 
@@ -12,5 +15,18 @@ namespace leafhull {
 /// field alone. Every cell that the surface crosses has its lowest corner in an evaluated brick.
 /// Source: Nielson, "Dual Marching Cubes", 2004; Wenger, "Isosurfaces", 2013, section 3.3.
 Polygons mesh_bricks(const Field& field);
+
+/// A part of a surface.
+struct OwnedPolygons {
+  Polygons polygons;
+  std::uint32_t own = 0;              ///< points, which come first
+  std::vector<std::uint8_t> patches;  ///< of each point, which of those in its cell it is
+};
+
+/// The part of mesh_bricks(field) that the cells of `own`, whole bricks, hold: the points in them,
+/// the faces whose lowest cell is among them, and after the own points those of upper neighbours
+/// that these faces have, ascending by cell. The field must be known one brick beyond `own`. A point
+/// and a face are the same from whatever part and anchor they are seen.
+OwnedPolygons mesh_bricks(const Field& field, const SampleBox& own);
 
 }  // namespace leafhull

@@ -29,6 +29,7 @@ class Roots {
     });
   }
   std::uint32_t operator[](std::uint32_t v) const { return parent_[v]; }
+  std::vector<std::uint32_t> take() && { return std::move(parent_); }
 
  private:
   std::atomic_ref<std::uint32_t> parent(std::uint32_t v) { return std::atomic_ref(parent_[v]); }
@@ -89,6 +90,10 @@ class Components {
 };
 
 }  // namespace
+
+std::vector<std::uint32_t> component_of_each(const Polygons& polygons) {
+  return Roots(polygons).take();
+}
 
 ComponentCells cells_of_components(const Polygons& polygons, double smallest) {
   const Components components(polygons, smallest);

@@ -17,6 +17,9 @@ struct ComponentCount {
 /// component of its own, measured by the volume it takes away.
 ComponentCount drop_small_components(Polygons& polygons, double smallest);
 
+/// For each point the lowest one that it is connected to.
+std::vector<std::uint32_t> component_of_each(const Polygons& polygons);
+
 /// The lattice cells that hold the vertices of components which drop_small_components would keep,
 /// and of those that it would drop.
 struct ComponentCells {

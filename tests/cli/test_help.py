@@ -16,7 +16,7 @@ class Help(CommandTest):
     def test_help_names_the_verbs(self):
         for flag in ("-h", "--help"):
             page = self.succeed(flag).stdout
-            for verb in ("extract", "inspect", "suggest", "sweep", "render", "devices"):
+            for verb in ("extract", "inspect", "suggest", "sweep", "render", "forest", "devices"):
                 self.assertIn(f"\n  {verb} ", page)
 
     def test_extract_help_has_every_flag_in_groups(self):
@@ -34,8 +34,8 @@ class Help(CommandTest):
             self.assertIn("default", entry)
 
     def test_pages_fit_a_terminal_of_100_columns(self):
-        for verb in ([], ["extract"], ["inspect"], ["suggest"], ["sweep"], ["render"], ["devices"]):
-            for line in self.succeed(*verb, "--help").stdout.splitlines():
+        for verb in ("", *"extract inspect suggest sweep render forest devices".split()):
+            for line in self.succeed(*verb.split(), "--help").stdout.splitlines():
                 self.assertLessEqual(len(line), 100, line)
                 self.assertEqual(line, line.rstrip())
 

@@ -130,7 +130,7 @@ INSTANTIATE_TEST_SUITE_P(
                 [](auto& b) {
                   b.json["nodes"][0]["scale"] = {1e200, 1, 1};
                   b.json["nodes"][0]["children"] = {1};
-                  b.json["nodes"].push_back({{"scale", {1e200, 1, 1}}});
+                  b.json["nodes"].push_back({{"mesh", 0}, {"scale", {1e200, 1, 1}}});
                 }},
         Spoiled{"\"FOO_twist\" is not supported",
                 [](auto& b) { b.json["extensionsRequired"] = {"FOO_twist"}; }},

@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "leafhull/forest.h"
+
+#include <chrono>
+#include <future>
+#include <iostream>
+#include <string>
+#include <utility>
+
+#include "cli/console.h"
+#include "cli/forest_words.h"
+#include "cli/values.h"
+#include "cli/verb.h"
+#include "leafhull/error.h"
+#include "leafhull/ranks.h"
+#include "text/file_name.h"
+
+namespace leafhull::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+double since(Clock::time_point begin) {
+  return std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
+void refuse_together(bool first_given, std::string_view first, bool second_given,
+                     std::string_view second, const std::string& remedy) {
+  if (!first_given || !second_given) return;
+  throw Error(ErrorCode::usage,
+              std::string(first) + " and " + std::string(second) + " contradict each other",
+              remedy);
+}
+
+void check_contradictions(const ForestOptions& forest) {
+  const bool ranged = forest.range.has_value(), single = forest.single.has_value();
+  refuse_together(forest.resume, "--resume", forest.restart, "--restart",
+                  "Go on with what DIR holds, or begin anew.");
+  refuse_together(forest.finish, "--finish", ranged, "--tile-range",
+                  "Compute every part first, then finish once.");
+  refuse_together(forest.finish, "--finish", forest.restart, "--restart",
+                  "To finish needs the tiles that --restart removes.");
+  refuse_together(ranged, "--tile-range", forest.restart, "--restart",
+                  "A part would remove what others have done: empty DIR first.");
+  refuse_together(ranged, "--tile-range", single, "--single",
+                  "It is made of all tiles: give it to --finish.");
+
+  const bool apart = forest.merge == Merge::none;
+  const std::string remedy = "Without --merge none there are tiles and levels.";
+  refuse_together(apart, "--merge none", forest.levels > 1, "--levels", remedy);
+  refuse_together(apart, "--merge none", single, "--single", remedy);
+  refuse_together(apart, "--merge none", forest.tile.has_value(), "--tile", remedy);
+  refuse_together(apart, "--merge none", ranged, "--tile-range", remedy);
+  refuse_together(apart, "--merge none", forest.finish, "--finish", remedy);
+}
+
+void check_arguments(const Arguments& arguments) {
+  (void)resolve(arguments.options);
+  if (arguments.folder.empty()) {
+    throw Error(ErrorCode::usage, "no folder for the forest is named", "Name one: -o out/.");
+  }
+  check_contradictions(arguments.forest);
+  if (const std::optional<fs::path>& single = arguments.forest.single) {
+    const std::string extension = lower_extension(*single);
+    if (extension != ".glb" && extension != ".ply") {
+      throw Error(ErrorCode::usage, "--single cannot be written to " + single->string(),
+                  "Name a .glb or .ply file.");
+    }
+    check_output(*single, extension, arguments.tree);
+  }
+  const std::optional<fs::path>& report = arguments.files.report;
+  if (report && *report != "-") check_output(*report, ".json", arguments.tree);
+  check_output_folder(arguments.folder);
+}
+
+/// Ranks that disagree would wait for each other for ever.
+void check_ranks_agree(const Arguments& arguments, Ranks& ranks) {
+  std::string words;
+  for (std::size_t i = 1; i < arguments.command.size(); ++i) words += arguments.command[i] + '\0';
+  const std::vector<std::string> all = ranks.all(words);
+  for (std::size_t rank = 1; rank < all.size(); ++rank) {
+    if (all[rank] == all.front()) continue;
+    throw Error(ErrorCode::usage,
+                "rank " + std::to_string(rank) + " was started with other words than rank 0",
+                "Give all ranks the same command. For parts of their own start them without MPI "
+                "(srun --mpi=none).");
+  }
+}
+
+std::string how_to_go_on(const ForestOptions& forest) {
+  if (forest.resume) return "the same command goes on";
+  return std::string("the same command with --resume") +
+         (forest.restart ? " in place of --restart" : "") + " goes on";
+}
+
+DeviceOptions device_of(const Arguments& arguments, const Ranks& ranks) {
+  DeviceOptions device = arguments.device;
+  if (device.threads == 0 && ranks.size() > 1) device.threads = ranks.cores();
+  return device;
+}
+
+std::string per_second(double leaf_vertices, double seconds) {
+  const double pace = seconds > 0 ? leaf_vertices / seconds : 0;
+  const std::string text =
+      pace < 1e6 ? count(static_cast<std::uint64_t>(pace)) : number(pace / 1e6, 3) + " M";
+  return text + " leaf vertices/s";
+}
+
+std::string counted(std::uint64_t things, const std::string& name) {
+  return count(things) + " " + name + (things == 1 ? "" : "s");
+}
+
+std::string tiles_in_words(const ForestSummary& summary) {
+  std::string text = counted(summary.tiles, "tile");
+  if (summary.resumed > 0) text += ", " + count(summary.resumed) + " of them from before";
+  if (summary.empty > 0) text += ", " + count(summary.empty) + " without a surface";
+  if (summary.remaining > 0) text += ", " + count(summary.remaining) + " still to do";
+  return text;
+}
+
+void say_summary(Console& console, const ForestSummary& summary, const Arguments& arguments,
+                 std::uint64_t leaf_vertices, double elapsed) {
+  if (summary.was_finished) {
+    console.say("leafhull: " + arguments.folder.string() +
+                " holds this forest, finished: nothing was to do");
+    return;
+  }
+  for (const StageTime& time : summary.seconds) {
+    std::string stage = time.stage;
+    stage.resize(std::max<std::size_t>(stage.size(), 18), ' ');
+    console.detail("  " + stage + "  " + seconds(time.seconds));
+  }
+  std::string text =
+      "leafhull: " + counted(summary.trees, "tree") + " of " + counted(summary.models, "model");
+  if (arguments.forest.merge == Merge::canopy) text += ", " + tiles_in_words(summary);
+  text += ": " + count(summary.mesh_triangles) + " triangles in " + seconds(elapsed) + ", " +
+          bytes(summary.peak_memory_bytes) + " at most";
+  if (leaf_vertices > 0) {
+    text += ", " + per_second(static_cast<double>(leaf_vertices), elapsed);
+  }
+  console.say(text + ": " + arguments.folder.string());
+}
+
+void write_report(const ForestSummary& summary, const Arguments& arguments,
+                  const ForestOptions& options) {
+  const std::optional<fs::path>& file = arguments.files.report;
+  if (!file) return;
+  const std::string report =
+      forest_report_json(summary, options, {arguments.tree.string(), arguments.command});
+  if (*file == "-") {
+    std::cout << report;
+  } else {
+    write_file(*file, report);
+  }
+}
+
+void make_forest(const Arguments& arguments, Ranks& ranks) {
+  const auto start = Clock::now();
+  const bool speaks = ranks.rank() == 0;
+  Console console(arguments.quiet || !speaks, arguments.verbose && speaks);
+  check_ranks_agree(arguments, ranks);
+  check_arguments(arguments);
+  ForestOptions options = arguments.forest;
+  options.shape = arguments.options;
+  ForestWords words(ranks, arguments.quiet, how_to_go_on(options));
+
+  const Options shape = resolve(arguments.options);
+  std::future<Device> opening = open_device(device_of(arguments, ranks), shape.falloff);
+  console.progress("read", 0);
+  const Scene scene = read_scene(arguments.tree, shape.leaf_options());
+  for (const std::string& warning : scene.warnings) console.warn(warning);
+  Device device = opening.get();
+  console.detail("device      " + device.info().name);
+  console.detail("scene       " + counted(scene.trees.size(), "tree") + " of " +
+                 counted(scene.models.size(), "model"));
+  if (ranks.size() > 1) {
+    console.detail("ranks       " + counted(static_cast<std::uint64_t>(ranks.size()), "rank") +
+                   ", this one with " +
+                   counted(static_cast<std::uint64_t>(device.threads()), "thread"));
+  }
+
+  std::uint64_t leaf_vertices = 0;
+  const ForestSummary summary =
+      run_forest(scene, options, device, ranks, arguments.folder, [&](const ForestProgress& now) {
+        leaf_vertices = now.leaf_vertices;
+        if (now.tiles == 0) return console.progress(now.stage, 0);
+        words.set_tiles(now.tiles);
+        console.progress(now.stage, now.tiles_done, now.tiles,
+                         per_second(static_cast<double>(leaf_vertices), since(start)) + ", " +
+                             bytes(now.resident_bytes));
+      });
+  if (!speaks) return;
+  for (const std::string& warning : summary.warnings) console.warn(warning);
+  write_report(summary, arguments, options);
+  // Of several ranks, and of a run that did all, the trees' own count.
+  const bool did_all = summary.resumed == 0 && summary.remaining == 0;
+  say_summary(console, summary, arguments, did_all ? summary.leaf_vertices : leaf_vertices,
+              since(start));
+}
+
+/// On several ranks one that fails ends the others, which do not know of it.
+void run_forest_verb(const Arguments& arguments) {
+  const std::unique_ptr<Ranks> ranks = open_ranks();
+  if (ranks->size() == 1) return make_forest(arguments, *ranks);
+  try {
+    make_forest(arguments, *ranks);
+  } catch (const std::exception&) {
+    const Failure failure = current_failure();
+    if (ranks->leave()) {
+      print_error("rank " + std::to_string(ranks->rank()) + ": " + failure.what, failure.remedy);
+    }
+    ranks->abort(failure.exit_code);
+  }
+}
+
+}  // namespace
+
+Verb forest_verb() {
+  return {
+      .name = "forest",
+      .summary = "thousands of trees: one canopy in tiles, or instances",
+      .about =
+          "Turns a SCENE of thousands of trees into abstract shapes, in bounded memory. In the\n"
+          "canopy the densities of neighbouring crowns add up; its surface is computed tile by\n"
+          "tile and written as OGC 3D Tiles, DIR/tileset.json. With --merge none each model is\n"
+          "extracted once and placed by instances, DIR/forest.glb.\n"
+          "\n"
+          "A scatter file is a table (.csv) or an object per line (.jsonl): model, position,\n"
+          "rotation, scale. A resolution counts along the largest tree.\n"
+          "\n"
+          "On many machines: mpirun leafhull forest, where leafhull is built with MPI; or, on\n"
+          "farms without, --tile-range 1/N to N/N and then --finish, on one folder. The result\n"
+          "has the same bytes. What is done is never lost: --resume goes on.",
+      .examples =
+          "  leafhull forest stand.csv -o stand/ --voxel-size 0.25\n"
+          "  leafhull forest stand.csv -o stand/ --levels 4 --single stand.glb\n"
+          "  leafhull forest stand.csv -o stand/ --merge none\n"
+          "  mpirun -n 4 --bind-to none leafhull forest stand.csv -o stand/\n"
+          "  leafhull forest stand.csv -o stand/ --tile-range 3/16\n",
+      .takes_tree = true,
+      .operand = "SCENE",
+      .operand_help = "a scatter file, .csv or .jsonl, or a .glb or .gltf file",
+      .operand_example = "stand.csv",
+      .flags =
+          all_of({forest_flags(), tree_flags(), device_flags(), console_flags(), help_flags()}),
+      .run = run_forest_verb};
+}
+
+}  // namespace leafhull::cli

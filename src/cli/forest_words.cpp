@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/forest_words.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <charconv>
+#include <string_view>
+#include <vector>
+
+#include "cli/signals.h"
+#include "leafhull/ranks.h"
+
+namespace leafhull::cli {
+namespace {
+
+// For the handler of a signal: all but `tiles` is set before it is installed.
+struct {
+  Ranks* ranks = nullptr;
+  std::vector<std::string> names;  ///< by rank
+  std::string how_to_go_on;
+  bool tells_stop = false;
+  std::atomic<std::size_t> tiles = 0;
+} run;
+
+/// A line in a buffer of its own: a handler of a signal may not allocate.
+class Line {
+ public:
+  void add(std::string_view text) {
+    const std::size_t size = std::min(text.size(), text_.size() - size_);
+    std::copy_n(text.begin(), size, text_.begin() + static_cast<std::ptrdiff_t>(size_));
+    size_ += size;
+  }
+
+  void add(std::size_t number) {
+    std::array<char, 20> digits{};
+    const auto end = std::to_chars(digits.begin(), digits.end(), number).ptr;
+    add({digits.data(), static_cast<std::size_t>(end - digits.data())});
+  }
+
+  void print() {
+    text_[std::min(size_++, text_.size() - 1)] = '\n';
+    [[maybe_unused]] const auto written =
+        write(STDERR_FILENO, text_.data(), std::min(size_, text_.size()));
+  }
+
+ private:
+  std::array<char, 4096> text_{};
+  std::size_t size_ = 0;
+};
+
+void tell_why() noexcept {
+  Line line;
+  line.add("leafhull: ");
+  int lost = 0;
+  for (int rank = 0; rank < run.ranks->size(); ++rank) {
+    if (!run.ranks->is_lost(rank)) continue;
+    if (lost++ > 0) line.add(", ");
+    line.add(run.names[static_cast<std::size_t>(rank)]);
+  }
+  if (lost == 0 && !run.tells_stop) return;
+  line.add(lost == 0 ? "stopped; " : " died; ");
+  if (run.tiles > 0) {
+    line.add("still to do: ");
+    line.add(run.tiles - std::min<std::size_t>(run.tiles, run.ranks->last(Sum::tiles)));
+    line.add(" of ");
+    line.add(run.tiles);
+    line.add(" tiles; ");
+  }
+  line.add(run.how_to_go_on);
+  line.print();
+}
+
+void say_last_words() noexcept {
+  if (run.ranks->leave()) tell_why();
+  run.ranks->leave_together();
+}
+
+}  // namespace
+
+ForestWords::ForestWords(Ranks& ranks, bool quiet, const std::string& how_to_go_on) {
+  const std::vector<RankProcess>& processes = ranks.processes();
+  const auto& mine = processes[static_cast<std::size_t>(ranks.rank())];
+  run.ranks = &ranks;
+  run.names.clear();
+  for (const RankProcess& process : processes) {
+    run.names.push_back("rank " + std::to_string(run.names.size()) + " (" + process.host +
+                        ", process " + std::to_string(process.pid) + ")");
+  }
+  run.how_to_go_on = how_to_go_on;
+  run.tells_stop = !quiet && mine.host == processes.front().host;  // one host is enough
+  run.tiles = 0;
+  catch_signals(say_last_words);
+}
+
+ForestWords::~ForestWords() { catch_signals(); }
+
+void ForestWords::set_tiles(std::size_t tiles) { run.tiles = tiles; }
+
+}  // namespace leafhull::cli

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "forest/compute_tile.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "density/control.h"
+#include "forest/finish_tile.h"
+#include "forest/gather.h"
+#include "forest/plan.h"
+#include "pipeline/evaluate.h"
+#include "surface/brick_mesher.h"
+
+namespace leafhull {
+namespace {
+
+/// A tile's surroundings.
+class Place {
+ public:
+  Place(const Scene& scene, const ForestLevel& level, const TileTask& task, Device& device)
+      : scene_(scene),
+        level_(level),
+        task_(task),
+        device_(device),
+        lattice_(tile_lattice(task.id, level.voxel_size, task.edge)) {}
+
+  const Lattice& lattice() const { return lattice_; }
+  SampleBox own() const { return {{0, 0, 0}, {task_.edge, task_.edge, task_.edge}}; }
+
+  /// A box of samples, in scene units.
+  Box box_of(const SampleBox& samples) const {
+    const auto corner = [&](Coord c) { return lattice_.world(to_vec3d(c)); };
+    return {corner(samples.low), corner(samples.high)};
+  }
+
+  std::vector<KernelRun> runs_near(const Box& box) const {
+    return leafhull::runs_near(scene_, level_, task_.trees, box);
+  }
+
+  DensityFunction density(std::span<const KernelRun> runs, const KernelOf& kernel) const {
+    return {device_, placed_kernels(scene_, level_, runs, lattice_, kernel),
+            level_.options.falloff};
+  }
+
+  /// The kernels that N is made of.
+  DensityFunction density(std::span<const KernelRun> runs) const {
+    if (level_.scope == ControlScope::model) {
+      return density(runs, [](const ForestModel& model, std::size_t j, std::size_t) {
+        return model.kernels[j];
+      });
+    }
+    const std::vector<float> isotropic = isotropic_at(local_centres(runs), runs);
+    return density(runs, [&](const ForestModel& model, std::size_t j, std::size_t at) {
+      return controlled_kernel(model.leaves[j], isotropic[at], *level_.scene_statistics,
+                               model.radius_max, level_.options);
+    });
+  }
+
+  /// N_iso at the centres of `runs`.
+  std::vector<float> isotropic_at(std::span<const Vec3d> points,
+                                  std::span<const KernelRun> runs) const {
+    if (points.empty()) return {};
+    Box around;
+    for (const Vec3d& p : centres_of(scene_, level_, runs)) around.include(p);
+    const std::vector<KernelRun> wide = runs_near(around);
+    return density(wide,
+                   [](const ForestModel& model, std::size_t j, std::size_t) {
+                     const double r = model.radius_max;
+                     return isotropic_kernels(std::span(model.leaves).subspan(j, 1), r).front();
+                   })
+        .at(points);
+  }
+
+  std::vector<Vec3d> local_centres(std::span<const KernelRun> runs) const {
+    std::vector<Vec3d> points = centres_of(scene_, level_, runs);
+    for (Vec3d& p : points) p = lattice_.local(p);
+    return points;
+  }
+
+  /// The leaf vertices in the tile.
+  std::vector<Vec3d> own_centres(std::span<const KernelRun> runs) const {
+    std::vector<Vec3d> points = local_centres(runs);
+    std::erase_if(points, [&](Vec3d p) { return !own().meets({cell_of(p), 1}); });
+    return points;
+  }
+
+ private:
+  const Scene& scene_;
+  const ForestLevel& level_;
+  const TileTask& task_;
+  Device& device_;
+  Lattice lattice_;
+};
+
+}  // namespace
+
+TileSurface compute_tile(const Scene& scene, const ForestLevel& level, const TileTask& task,
+                         Device& device) {
+  const Place place(scene, level, task, device);
+  const SampleBox around = samples_around(task.edge);
+  const std::vector<KernelRun> runs = place.runs_near(place.box_of(around));
+  TileSurface surface;
+  surface.gathered = count(runs);
+  surface.leaf_vertices = place.own_centres(runs).size();
+  if (runs.empty()) return surface;
+
+  DensityFunction density = place.density(runs);
+  OwnedPolygons part;
+  {
+    const auto sampled = density.sample_band(level.threshold, around);
+    surface.evaluated_voxels = sampled.field.sample_count();
+    part = mesh_bricks(sampled.field, place.own());
+  }
+  finish_tile(std::move(part), density, level, place.lattice(), place.own(), surface);
+  return surface;
+}
+
+std::vector<float> isotropic_density_in(const Scene& scene, const ForestLevel& level,
+                                        const TileTask& task, Device& device) {
+  const Place place(scene, level, task, device);
+  const std::vector<KernelRun> runs = place.runs_near(place.box_of(place.own()));
+  return place.isotropic_at(place.own_centres(runs), runs);
+}
+
+std::vector<float> density_in(const Scene& scene, const ForestLevel& level, const TileTask& task,
+                              Device& device) {
+  const Place place(scene, level, task, device);
+  const std::vector<KernelRun> runs = place.runs_near(place.box_of(place.own()));
+  const std::vector<Vec3d> points = place.own_centres(runs);
+  if (points.empty()) return {};
+  return place.density(runs).at(points);
+}
+
+}  // namespace leafhull

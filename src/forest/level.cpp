@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "forest/level.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "forest/exact_volume.h"
+#include "forest/tree_map.h"
+#include "leafhull/error.h"
+#include "pipeline/evaluate.h"
+#include "pipeline/grid.h"
+#include "pipeline/stages.h"
+#include "surface/brick_mesher.h"
+
+namespace leafhull {
+namespace {
+
+constexpr std::uint32_t kGroup = 64;
+/// A model is not thinned below this many leaf vertices.
+constexpr std::size_t kFewest = 64;
+
+/// The leaf vertices of a level; those of a model are in Morton order, so that every n-th is spread
+/// evenly.
+LeafSet thinned(const LeafSet& leaves, int level) {
+  if (level == 0) return leaves;
+  LeafSet few = leaves;
+  few.vertices.clear();
+  const std::size_t most = std::max<std::size_t>(1, leaves.vertices.size() / kFewest);
+  const std::size_t step = std::min(std::size_t{1} << 2 * level, most);
+  const double grown = std::ldexp(1.0, level);
+  for (std::size_t i = step / 2; i < leaves.vertices.size(); i += step) {
+    LeafVertex leaf = leaves.vertices[i];
+    leaf.radius_major *= static_cast<float>(grown);
+    leaf.radius_minor *= static_cast<float>(grown);
+    few.vertices.push_back(leaf);
+  }
+  few.mean_radius_major *= grown;
+  return few;
+}
+
+std::vector<KernelGroup> groups_of(std::span<const Kernel> kernels) {
+  std::vector<KernelGroup> groups;
+  const auto count = static_cast<std::uint32_t>(kernels.size());
+  for (std::uint32_t first = 0; first < count; first += kGroup) {
+    KernelGroup group{
+        .centres = {}, .reach = 0, .first = first, .end = std::min(first + kGroup, count)};
+    for (const Kernel& k : kernels.subspan(first, group.end - first)) {
+      group.centres.include(k.centre);
+      group.reach =
+          std::max({group.reach, static_cast<double>(k.radius_major),
+                    static_cast<double>(k.radius_minor), static_cast<double>(k.radius_normal)});
+    }
+    groups.push_back(group);
+  }
+  return groups;
+}
+
+/// The options of a model that stands alone at a level.
+Options alone(const LeafSet& leaves, int level, Options resolved) {
+  // Neither kernels nor densities depend on the voxels.
+  resolved.preset = Preset::standard;
+  resolved.resolution.reset();
+  resolved.voxel_size.reset();
+  resolved.radius_max = radius_max_in_model_units(leaves, resolved) * std::ldexp(1.0, level);
+  resolved.radius_unit = RadiusUnit::model;
+  return resolve(resolved);
+}
+
+ForestModel prepare_model(const LeafSet& all, int level, const Options& resolved, Device& device) {
+  const Progress no_progress;
+  Stopwatch watch(no_progress);
+  const LeafSet leaves = thinned(all, level);
+  Stages stages(leaves, device, watch);
+  Report report;
+  report.options = alone(all, level, resolved);
+  stages.prepare(report);
+
+  ForestModel model;
+  model.leaves = leaves.vertices;
+  model.kernels = stages.take_kernels();
+  model.isotropic_density = stages.take_isotropic_density();
+  model.density = stages.take_density_there();
+  model.radius_max = report.radius_max_model;
+  model.groups = groups_of(model.kernels);
+  for (const Kernel& k : model.kernels) model.bounds.include(k.centre);
+  model.reach = report.radius_max_model;
+  for (const LeafVertex& leaf : leaves.vertices) {  // what control may give it
+    model.reach = std::max(model.reach, static_cast<double>(leaf.radius_major));
+  }
+  return model;
+}
+
+double weighted_mean(const std::vector<ForestModel>& models, std::span<const ModelUse> uses) {
+  double sum = 0, count = 0;
+  for (std::size_t m = 0; m < models.size(); ++m) {
+    const double trees = static_cast<double>(uses[m].trees);
+    for (const float n : models[m].isotropic_density) sum += trees * static_cast<double>(n);
+    count += trees * static_cast<double>(models[m].isotropic_density.size());
+  }
+  return sum / count;
+}
+
+double threshold_of(const ForestLevel& level, std::span<const ModelUse> uses,
+                    const ForestLevel* finest) {
+  const Options& options = level.options;
+  if (options.coverage) {
+    std::vector<WeightedDensity> densities;
+    for (std::size_t m = 0; m < level.models.size(); ++m) {
+      for (const float n : level.models[m].density) densities.push_back({n, uses[m].trees});
+    }
+    return threshold_for_coverage(densities, *options.coverage);
+  }
+  const double mean = weighted_mean(level.models, uses);
+  if (options.threshold_percent) return *options.threshold_percent / 100 * mean;
+  if (!finest) return *options.threshold;
+  return *options.threshold * mean / weighted_mean(finest->models, uses);
+}
+
+/// Twelve times the volume of a model's largest piece, standing alone.
+ExactVolume largest_piece(const ForestModel& model, const ForestLevel& level, Device& device) {
+  const Lattice lattice = Lattice::near(model.bounds.low, level.voxel_size);
+  const auto hash = std::make_shared<const SpatialHash>(
+      model.kernels, Lattice::near(model.bounds.low, std::max(model.reach, level.voxel_size)));
+  DensityFunction density(device, model.kernels, hash, lattice, level.options.falloff);
+  const auto sampled = density.sample_band({level.threshold}, 1, false,
+                                           DensityFunction::Lists::forget, [](double) {});
+  ExactVolume largest = 0;
+  const Polygons polygons = mesh_bricks(sampled.field);
+  for (const auto& [root, volume] : exact_volumes(polygons, lattice)) {
+    largest = std::max(largest, volume < 0 ? -volume : volume);
+  }
+  return largest;
+}
+
+}  // namespace
+
+std::vector<ModelUse> model_uses(const Scene& scene) {
+  std::vector<ModelUse> uses(scene.models.size());
+  for (const PlacedTree& tree : scene.trees) {
+    ModelUse& use = uses[tree.model];
+    const TreeMap map(tree);
+    use.smallest_volume =
+        use.trees == 0 ? map.volume() : std::min(use.smallest_volume, map.volume());
+    use.largest = std::max(use.largest, map.stretch());
+    ++use.trees;
+  }
+  return uses;
+}
+
+std::vector<LeafSet> read_models(const Scene& scene, std::span<const ModelUse> uses,
+                                 const LeafOptions& options) {
+  std::vector<LeafSet> models(scene.models.size());
+  for (std::size_t m = 0; m < models.size(); ++m) {
+    if (uses[m].trees == 0) continue;
+    models[m] = read_model(scene.models[m], options);
+  }
+  return models;
+}
+
+double voxel_size_of(std::span<const LeafSet> models, std::span<const ModelUse> uses,
+                     const Options& resolved) {
+  if (resolved.voxel_size) return *resolved.voxel_size;
+  double side = 0;
+  for (std::size_t m = 0; m < models.size(); ++m) {
+    if (uses[m].trees == 0) continue;
+    const double radius = radius_max_in_model_units(models[m], resolved);
+    side = std::max(side, uses[m].largest * (models[m].bounds.longest_side() + 2 * radius));
+  }
+  return side / *resolved.resolution;
+}
+
+ForestLevel prepare_level(int number, std::span<const LeafSet> models,
+                          std::span<const ModelUse> uses, const Options& resolved,
+                          double voxel_size, const ForestLevel* finest, Device& device) {
+  ForestLevel level;
+  level.level = number;
+  level.options = resolved;
+  level.voxel_size = std::ldexp(voxel_size, number);
+  level.models.resize(models.size());
+  double radius_max = 0;
+  for (std::size_t m = 0; m < models.size(); ++m) {
+    if (uses[m].trees == 0) continue;
+    level.models[m] = prepare_model(models[m], number, resolved, device);
+    level.reach = std::max(level.reach, level.models[m].reach * uses[m].largest);
+    radius_max = std::max(radius_max, level.models[m].radius_max * uses[m].largest);
+  }
+  level.threshold = threshold_of(level, uses, finest);
+  // A voxel, and what R_max has grown by since level 0.
+  level.error = level.voxel_size + radius_max * (1 - std::ldexp(1.0, -number));
+
+  if (const double share = *resolved.min_component; share > 0) {
+    double smallest = HUGE_VAL;
+    for (std::size_t m = 0; m < models.size(); ++m) {
+      if (uses[m].trees == 0) continue;
+      const auto alone = static_cast<double>(largest_piece(level.models[m], level, device));
+      if (alone > 0) smallest = std::min(smallest, alone * uses[m].smallest_volume);
+    }
+    if (smallest < HUGE_VAL) level.least = static_cast<ExactVolume>(share * smallest);
+  }
+  return level;
+}
+
+double threshold_for_coverage(std::vector<WeightedDensity>& densities, double coverage) {
+  std::sort(densities.begin(), densities.end(),
+            [](const auto& a, const auto& b) { return a.density < b.density; });
+  std::uint64_t count = 0;
+  for (const WeightedDensity& d : densities) count += d.weight;
+  const auto below = std::min(
+      count - 1,
+      static_cast<std::uint64_t>(std::llround((1 - coverage) * static_cast<double>(count))));
+  std::uint64_t rank = 0;  // of the first that has a density
+  std::size_t at = 0;
+  while (rank + densities[at].weight <= below) rank += densities[at++].weight;
+  const auto here = static_cast<double>(densities[at].density);
+  if (below == 0 || rank < below) return here;
+  return 0.5 * (static_cast<double>(densities[at - 1].density) + here);
+}
+
+}  // namespace leafhull

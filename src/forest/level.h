@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "forest/tile.h"
+#include "leafhull/forest.h"
+#include "leafhull/leaves.h"
+#include "leafhull/shape.h"
+#include "pipeline/stopwatch.h"
+
+namespace leafhull {
+
+/// Neighbouring kernels of a model: those from `first` to `end`.
+struct KernelGroup {
+  Box centres;
+  double reach = 0;  ///< the largest radius
+  std::uint32_t first = 0, end = 0;
+};
+
+/// A tree model as it is placed, at one level of abstraction, model units.
+struct ForestModel {
+  std::vector<LeafVertex> leaves;
+  std::vector<Kernel> kernels;  ///< one per leaf vertex; their radii controlled within the model
+  std::vector<float> isotropic_density, density;  ///< N_iso and N there, of the tree alone
+  double radius_max = 0;                          ///< R_max
+  std::vector<KernelGroup> groups;
+  Box bounds;        ///< of the centres
+  double reach = 0;  ///< the largest radius, R_max included
+};
+
+/// A level of abstraction.
+///
+/// Level L stands for 4^L leaf vertices by one of them, with 2^L times the radius: what is far is
+/// seen with fewer and larger leaves, on voxels 2^L times as large. So each level costs a quarter
+/// of the one below. Source: Cook, Halstead, Planck and Ryu, "Stochastic Simplification of
+/// Aggregate Detail", 2007.
+struct ForestLevel {
+  int level = 0;
+  Options options;  ///< resolved
+  ControlScope scope = ControlScope::model;
+  double voxel_size = 0, threshold = 0;
+  double reach = 0;  ///< the largest radius of all trees, scene units
+  std::vector<ForestModel> models;
+  /// Of ControlScope::scene: of N_iso over all trees, their neighbours included.
+  std::optional<DensityStatistics> scene_statistics;
+  ExactVolume least = 0;  ///< twelve times the least volume that a piece of surface may have
+  double error = 0;       ///< how far the surface may be from the finest, scene units
+};
+
+/// How often each model is placed, and the trees' extremes.
+struct ModelUse {
+  std::uint64_t trees = 0;
+  double largest = 0;          ///< the largest stretch
+  double smallest_volume = 0;  ///< the smallest factor of volumes
+};
+std::vector<ModelUse> model_uses(const Scene& scene);
+
+/// The leaves of the models that are placed, empty ones for the others.
+/// @throws Error as read_model does, the model named.
+std::vector<LeafSet> read_models(const Scene& scene, std::span<const ModelUse> uses,
+                                 const LeafOptions& options);
+
+/// The voxel size of level 0: as asked for, or such that the resolution counts along the largest
+/// tree.
+double voxel_size_of(std::span<const LeafSet> models, std::span<const ModelUse> uses,
+                     const Options& resolved);
+
+/// Prepares a level: kernels of every model, T, and how small a piece may be. T as a coverage or a
+/// percentage of m is taken over the leaf vertices of all trees, each tree standing alone; T itself
+/// keeps its ratio to m from level to level. `finest`: level 0, for the others.
+ForestLevel prepare_level(int level, std::span<const LeafSet> models,
+                          std::span<const ModelUse> uses, const Options& resolved,
+                          double voxel_size, const ForestLevel* finest, Device& device);
+
+/// T for a coverage of weighted densities, which are sorted: as threshold_for_coverage where all
+/// weights are one.
+struct WeightedDensity {
+  float density;
+  std::uint64_t weight;
+};
+double threshold_for_coverage(std::vector<WeightedDensity>& densities, double coverage);
+
+}  // namespace leafhull

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "leafhull/forest.h"
+#include "leafhull/ranks.h"
+
+namespace leafhull {
+
+/// Every tree model extracted once, as it stands alone, and forest.glb with all trees as instances
+/// of these shapes. Rank 0 works, the others wait.
+/// @throws Error as run_forest.
+ForestSummary merge_none(const Scene& scene, const ForestOptions& options, Device& device,
+                         Ranks& ranks, const std::filesystem::path& folder,
+                         const ForestProgressVisitor& progress);
+
+}  // namespace leafhull

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "output/report.h"
+
+#include <array>
+#include <string_view>
+
+#include "leafhull/forest.h"
+#include "leafhull/version.h"
+
+namespace leafhull {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Options that no tile heeds.
+constexpr std::array<std::string_view, 2> kNotOfForests = {"mesher", "adaptivity"};
+
+Json options_of(const ForestOptions& options) {
+  Json object = options_object(resolve(options.shape));
+  for (const std::string_view key : kNotOfForests) object.erase(std::string(key));
+  object["merge"] = name(options.merge);
+  object["control_scope"] = name(options.control_scope);
+  object["levels"] = options.levels;
+  object["tile"] = options.tile ? Json(*options.tile) : Json();
+  object["memory_bytes"] = options.memory;
+  object["tile_range"] = options.range ? Json{options.range->part, options.range->parts} : Json();
+  object["finish"] = options.finish;
+  object["single"] = options.single ? Json(options.single->string()) : Json();
+  return object;
+}
+
+Json row(const TileRow& tile) {
+  return {{"level", tile.level},
+          {"x", tile.x},
+          {"y", tile.y},
+          {"z", tile.z},
+          {"leaf_vertices", tile.leaf_vertices},
+          {"gathered", tile.gathered},
+          {"evaluated_voxels", tile.evaluated_voxels},
+          {"vertices", tile.vertices},
+          {"triangles", tile.triangles},
+          {"seconds", tile.seconds},
+          {"resident_bytes", tile.resident_bytes},
+          {"rank", tile.rank}};
+}
+
+Json rows(const std::vector<TileRow>& tiles) {
+  Json array = Json::array();
+  for (const TileRow& tile : tiles) array.push_back(row(tile));
+  return array;
+}
+
+Json levels(const std::vector<LevelRow>& levels) {
+  Json array = Json::array();
+  for (const LevelRow& level : levels) {
+    array.push_back({{"level", level.level},
+                     {"voxel_size", level.voxel_size},
+                     {"threshold", level.threshold},
+                     {"error", level.error}});
+  }
+  return array;
+}
+
+}  // namespace
+
+std::string forest_report_json(const ForestSummary& summary, const ForestOptions& options,
+                               const RunDescription& run) {
+  const Json scene = {
+      {"trees", summary.trees}, {"models", summary.models}, {"skipped", summary.skipped}};
+  const Json counts = {{"leaf_vertices", summary.leaf_vertices},
+                       {"tiles", summary.tiles},
+                       {"empty", summary.empty},
+                       {"mesh_vertices", summary.mesh_vertices},
+                       {"mesh_triangles", summary.mesh_triangles}};
+  const Json report = {{"schema", "leafhull-forest-report/1"},
+                       {"version", kVersion},
+                       {"input", run.input},
+                       {"command", run.command},
+                       {"options", options_of(options)},
+                       {"scene", scene},
+                       {"counts", counts},
+                       {"levels", levels(summary.levels)},
+                       {"resumed", summary.resumed},
+                       {"remaining", summary.remaining},
+                       {"seconds", seconds_object(summary.seconds)},
+                       {"peak_memory_bytes", summary.peak_memory_bytes},
+                       {"tiles", rows(summary.rows)},
+                       {"warnings", summary.warnings}};
+  // A path may hold bytes that are no UTF-8; JSON may not.
+  return report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace leafhull

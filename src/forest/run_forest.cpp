@@ -1,0 +1,344 @@
+// SPDX-License-Identifier: Apache-2.0
+// A forest from its scene to the folder that holds it.
+#include <algorithm>
+#include <chrono>
+#include <future>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "forest/compute_tile.h"
+#include "forest/identity.h"
+#include "forest/merge_none.h"
+#include "forest/plan.h"
+#include "forest/scene_control.h"
+#include "forest/store.h"
+#include "forest/tileset.h"
+#include "leafhull/error.h"
+#include "leafhull/forest.h"
+#include "leafhull/ranks.h"
+#include "pipeline/memory.h"
+#include "pipeline/stopwatch.h"
+#include "pipeline/thread_limit.h"
+
+namespace leafhull {
+namespace {
+
+constexpr int kMostLevels = 8;
+constexpr int kLargestTile = 512;
+
+void check(const ForestOptions& options) {
+  const auto refuse = [](const std::string& what, const std::string& remedy) {
+    throw Error(ErrorCode::usage, what, remedy);
+  };
+  if (options.levels < 1 || options.levels > kMostLevels) {
+    refuse("a forest cannot have " + std::to_string(options.levels) + " levels",
+           "Give --levels from 1 to " + std::to_string(kMostLevels) + ".");
+  }
+  if (const auto tile = options.tile;
+      tile && (*tile % kRootEdge != 0 || *tile < kRootEdge || *tile > kLargestTile)) {
+    refuse("a tile cannot have " + std::to_string(*tile) + " voxels along its edge",
+           "Give a multiple of 32 up to " + std::to_string(kLargestTile) + ".");
+  }
+  if (options.merge == Merge::none) {
+    if (options.control_scope == ControlScope::scene) {
+      refuse("--control-scope scene needs trees that share a density", "Add --merge canopy.");
+    }
+    if (options.levels > 1 || options.single || options.range || options.finish) {
+      refuse("--merge none makes no tiles",
+             "Leave out --levels, --single, --tile-range and --finish.");
+    }
+    return;
+  }
+  if (options.shape.density == DensitySource::grid) {
+    refuse("--density grid is of a single tree", "Leave it out, or add --merge none.");
+  }
+  if (options.shape.dense || options.shape.adaptivity > 0) {
+    refuse("tiles have neither --dense nor --adaptivity", "Leave them out, or add --merge none.");
+  }
+}
+
+/// A tile of one of the levels.
+struct Work {
+  int level;
+  std::size_t tile;  ///< in its plan
+  double weight;
+};
+
+/// All of a forest that does not change while its tiles are computed.
+struct Forest {
+  const Scene& scene;
+  std::vector<ForestLevel> levels;
+  int edge = 0;
+  std::vector<TilePlan> plans;
+
+  std::vector<TileId> tiles() const {
+    std::vector<TileId> all;
+    for (const TilePlan& plan : plans)
+      all.insert(all.end(), plan.tiles().begin(), plan.tiles().end());
+    return all;
+  }
+
+  /// Heavy ones first, so that none is left over when the others are done.
+  std::vector<Work> work() const {
+    std::vector<Work> all;
+    for (std::size_t l = 0; l < plans.size(); ++l) {
+      for (std::size_t t = 0; t < plans[l].size(); ++t) {
+        all.push_back({static_cast<int>(l), t, plans[l].weight(t)});
+      }
+    }
+    std::stable_sort(all.begin(), all.end(),
+                     [](const Work& a, const Work& b) { return a.weight > b.weight; });
+    return all;
+  }
+
+  TileId id(const Work& work) const {
+    return plans[static_cast<std::size_t>(work.level)].tiles()[work.tile];
+  }
+
+  TileSurface compute(const Work& work, Device& device) const {
+    const auto l = static_cast<std::size_t>(work.level);
+    return compute_tile(scene, levels[l], {id(work), edge, plans[l].trees(work.tile)}, device);
+  }
+};
+
+class Run {
+ public:
+  Run(const Scene& scene, const ForestOptions& options, Device& device, Ranks& ranks,
+      const std::filesystem::path& folder, const ForestProgressVisitor& progress)
+      : scene_(scene),
+        options_(options),
+        device_(device),
+        ranks_(ranks),
+        folder_(folder),
+        progress_(progress),
+        forest_{scene, {}, 0, {}} {}
+
+  ForestSummary canopy() {
+    prepare();
+    if (!open_store()) return summary();
+    if (!options_.finish) {
+      if (options_.control_scope == ControlScope::scene) control();
+      compute();
+    }
+    ranks_.barrier();
+    store_->refresh();
+    count_tiles();
+    if (!options_.range) finish();
+    ranks_.barrier();
+    return summary();
+  }
+
+ private:
+  void tell(std::string_view stage) { tell(stage, 0, 0); }
+  void tell(std::string_view stage, std::size_t done, std::size_t all) {
+    if (!progress_) return;
+    progress_({.stage = stage,
+               .tiles_done = done,
+               .tiles = all,
+               .leaf_vertices = leaf_vertices_,
+               .resident_bytes = resident_memory()});
+  }
+
+  void prepare() {
+    watch_.start("models");
+    tell("models");
+    const Options resolved = resolve(options_.shape);
+    const std::vector<ModelUse> uses = model_uses(scene_);
+    const std::vector<LeafSet> models = read_models(scene_, uses, resolved.leaf_options());
+    const double voxel_size = voxel_size_of(models, uses, resolved);
+    for (int l = 0; l < options_.levels; ++l) {
+      const ForestLevel* finest = l > 0 ? &forest_.levels.front() : nullptr;
+      ForestLevel level = prepare_level(l, models, uses, resolved, voxel_size, finest, device_);
+      level.scope = options_.control_scope;
+      forest_.levels.push_back(std::move(level));
+    }
+    for (std::size_t m = 0; m < models.size(); ++m) {
+      summary_.leaf_vertices += uses[m].trees * models[m].vertices.size();
+      summary_.models += uses[m].trees > 0;
+      for (const std::string& warning : models[m].warnings) summary_.warnings.push_back(warning);
+    }
+    watch_.start("plan");
+    tell("plan");
+    forest_.edge = tile_edge(scene_, forest_.levels, options_.tile, options_.memory, folder_);
+    for (const ForestLevel& level : forest_.levels) {
+      forest_.plans.emplace_back(scene_, level, forest_.edge);
+    }
+    identity_ = forest_identity(scene_, models, options_, device_.info(), voxel_size, forest_.edge);
+  }
+
+  /// False where the forest is finished already.
+  bool open_store() {
+    const std::string writer = options_.range ? "part-" + std::to_string(options_.range->part) +
+                                                    "-of-" + std::to_string(options_.range->parts)
+                                              : "rank-" + std::to_string(ranks_.rank());
+    // The first makes or clears the folder; the others, and parts of a farm's run, join it.
+    const bool joins = options_.range || options_.finish || ranks_.rank() > 0;
+    if (ranks_.rank() > 0) ranks_.barrier();
+    store_.emplace(folder_, identity_, writer, options_.resume || joins,
+                   options_.restart && !joins);
+    if (ranks_.rank() == 0) ranks_.barrier();
+    summary_.was_finished = store_->finished();
+    return !summary_.was_finished;
+  }
+
+  void control() {
+    watch_.start("control");
+    const auto advance = [&](std::size_t done, std::size_t all) { tell("control", done, all); };
+    for (std::size_t l = 0; l < forest_.levels.size(); ++l) {
+      const ForestLevel* finest = l > 0 ? &forest_.levels.front() : nullptr;
+      control_over_scene(scene_, forest_.plans[l], forest_.edge, finest, forest_.levels[l], device_,
+                         ranks_, advance);
+    }
+  }
+
+  /// The tiles of this run that are not on the disk, heavy ones first.
+  std::vector<Work> work_to_do() {
+    std::vector<Work> work = forest_.work();
+    if (options_.range) {
+      const auto parts = static_cast<std::size_t>(options_.range->parts);
+      std::vector<Work> mine;
+      for (auto i = static_cast<std::size_t>(options_.range->part - 1); i < work.size();
+           i += parts) {
+        mine.push_back(work[i]);
+      }
+      work = std::move(mine);
+    }
+    all_ = work.size();
+    std::erase_if(work, [&](const Work& w) { return store_->done().contains(forest_.id(w)); });
+    return work;
+  }
+
+  void compute() {
+    watch_.start("tiles");
+    const std::vector<Work> work = work_to_do();
+    summary_.resumed = all_ - work.size();
+    ranks_.reset();
+    std::future<void> writing;  // of the tile before, while the next is computed
+    for (std::uint64_t i = ranks_.next(); i < work.size(); i = ranks_.next()) {
+      tell("tiles", summary_.resumed + i, all_);
+      const auto start = std::chrono::steady_clock::now();
+      TileSurface surface = forest_.compute(work[i], device_);
+      const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+      leaf_vertices_ += surface.leaf_vertices;
+      TileRecord record;
+      record.id = forest_.id(work[i]);
+      record.seconds = elapsed.count();
+      record.resident_bytes = resident_memory();
+      record.rank = ranks_.rank();
+      if (writing.valid()) writing.get();
+      writing = std::async(std::launch::async,
+                           [this, surface = std::move(surface), record = std::move(record)] {
+                             store_->put(surface, record);
+                           });
+    }
+    if (writing.valid()) writing.get();
+    tell("tiles", all_, all_);
+  }
+
+  void count_tiles() {
+    summary_.tiles = forest_.tiles().size();
+    for (const auto& [id, record] : store_->done()) {
+      summary_.empty += record.triangles == 0;
+      summary_.rows.push_back({.level = id.level,
+                               .x = id.at.x,
+                               .y = id.at.y,
+                               .z = id.at.z,
+                               .leaf_vertices = record.leaf_vertices,
+                               .gathered = record.gathered,
+                               .evaluated_voxels = record.evaluated_voxels,
+                               .vertices = record.vertices,
+                               .triangles = record.triangles,
+                               .seconds = record.seconds,
+                               .resident_bytes = record.resident_bytes,
+                               .rank = record.rank});
+    }
+    summary_.remaining = summary_.tiles - std::min(summary_.tiles, store_->done().size());
+  }
+
+  void finish() {
+    if (summary_.remaining > 0) {
+      throw Error(ErrorCode::usage,
+                  std::to_string(summary_.remaining) + " of " + std::to_string(summary_.tiles) +
+                      " tiles are still to do in " + folder_.string(),
+                  "Run the missing --tile-range parts, or go on with --resume.");
+    }
+    watch_.start("finish");
+    tell("finish", summary_.tiles, summary_.tiles);
+    if (ranks_.rank() != 0) return;
+    if (summary_.empty == summary_.tiles) refuse_empty();
+    SmallPieces small;
+    for (const ForestLevel& level : forest_.levels) small.least.push_back(level.least);
+    const std::vector<TileId> tiles = forest_.tiles();
+    const FinishedForest finished =
+        put_in_place(*store_, tiles, forest_.edge, small, options_.single);
+    std::vector<double> errors;
+    for (const ForestLevel& level : forest_.levels) errors.push_back(level.error);
+    const std::string tileset = tileset_json(finished.tiles, errors);
+    std::map<std::string, FileRecord> files{
+        {"tileset.json",
+         put_file(*store_, "tileset.json", [&](std::ostream& stream) { stream << tileset; })}};
+    if (finished.single) files.emplace(options_.single->string(), *finished.single);
+    finish_store(*store_, finished.tiles, files);
+    for (const FinishedTile& tile : finished.tiles) {
+      summary_.mesh_vertices += tile.vertices;
+      summary_.mesh_triangles += tile.triangles;
+    }
+  }
+
+  [[noreturn]] void refuse_empty() {
+    std::filesystem::remove_all(folder_ / "work");
+    throw Error(ErrorCode::empty,
+                "the forest is empty: no tree reaches the threshold at this voxel size",
+                "Lower --threshold or --voxel-size, or enlarge --radius-max.");
+  }
+
+  ForestSummary summary() {
+    summary_.trees = scene_.trees.size();
+    summary_.skipped = scene_.skipped;
+    for (const ForestLevel& level : forest_.levels) {
+      summary_.levels.push_back({.level = level.level,
+                                 .voxel_size = level.voxel_size,
+                                 .threshold = level.threshold,
+                                 .error = level.error});
+    }
+    for (const std::string& warning : store_->warnings()) summary_.warnings.push_back(warning);
+    for (const std::string& peak : ranks_.all(std::to_string(peak_memory()))) {
+      summary_.peak_memory_bytes =
+          std::max<std::uint64_t>(summary_.peak_memory_bytes, std::stoull(peak));
+    }
+    summary_.seconds = watch_.finish();
+    return std::move(summary_);
+  }
+
+  const Scene& scene_;
+  const ForestOptions& options_;
+  Device& device_;
+  Ranks& ranks_;
+  const std::filesystem::path& folder_;
+  const ForestProgressVisitor& progress_;
+  const Progress no_progress_;
+  Stopwatch watch_{no_progress_};
+  Forest forest_;
+  nlohmann::ordered_json identity_;
+  std::optional<Store> store_;
+  ForestSummary summary_;
+  std::size_t all_ = 0;  ///< tiles of this run
+  std::uint64_t leaf_vertices_ = 0;
+};
+
+}  // namespace
+
+ForestSummary run_forest(const Scene& scene, const ForestOptions& options, Device& device,
+                         Ranks& ranks, const std::filesystem::path& folder,
+                         const ForestProgressVisitor& progress) {
+  check(options);
+  check_output_folder(folder);
+  const ThreadLimit limit(device);
+  if (options.merge == Merge::none) {
+    return merge_none(scene, options, device, ranks, folder, progress);
+  }
+  return Run(scene, options, device, ranks, folder, progress).canopy();
+}
+
+}  // namespace leafhull

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "input/gltf_meshes.h"
+
+#include <set>
+
+#include "input/gltf_file.h"
+#include "input/gltf_materials.h"
+#include "input/gltf_nodes.h"
+#include "input/gltf_primitive.h"
+
+namespace leafhull {
+
+GltfMeshes read_gltf_meshes(ByteSpan bytes, const std::string& name,
+                            const std::optional<std::filesystem::path>& folder,
+                            const MeshVisitor& visit) {
+  GltfFile file = open_gltf(bytes, name, folder);
+  GltfMeshes meshes;
+  TreeModel& tree = meshes.tree;
+  const std::set<int> placed = placed_meshes(file);
+  MaterialReader materials(file, tree);
+  materials.read_all();
+  for (const int mesh : placed) {
+    const std::size_t count = file.model.meshes[mesh].primitives.size();
+    for (std::size_t i = 0; i < count; ++i) {
+      auto primitive =
+          read_primitive(file, static_cast<std::size_t>(mesh), i, materials, tree.warnings);
+      if (!primitive) continue;
+      meshes.primitives[mesh].push_back(static_cast<std::uint32_t>(tree.primitives.size()));
+      tree.primitives.push_back(std::move(*primitive));
+    }
+  }
+  place_meshes(file, [&](const PlacedMesh& placed_mesh) {
+    if (meshes.primitives.contains(placed_mesh.mesh)) visit(meshes, placed_mesh);
+  });
+  return meshes;
+}
+
+}  // namespace leafhull

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <mpi.h>
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <vector>
+
+#include "ranks/host.h"
+
+namespace leafhull {
+
+/// What the ranks add up: the sums, and the counter of Ranks::next.
+enum class Counter : std::size_t { next = kSums };
+inline constexpr std::size_t kCounters = kSums + 1;
+inline Counter counter_of(Sum sum) { return static_cast<Counter>(sum); }
+
+/// What the ranks of one host tell each other in memory that they share, where a handler of a
+/// signal can read it too.
+class HostBoard {
+ public:
+  HostBoard();  ///< Collective, as is the end.
+  ~HostBoard();
+  HostBoard(const HostBoard&) = delete;
+  HostBoard& operator=(const HostBoard&) = delete;
+
+  int ranks() const { return static_cast<int>(pids_.size()); }
+  int cores() const { return cores_; }  ///< that these ranks may run on together
+
+  bool has(int rank) const;  ///< `rank` among all
+
+  /// Adds and returns the sum.
+  std::uint64_t add(Counter counter, std::uint64_t amount) noexcept;
+  void set(Counter counter, std::uint64_t value) noexcept;
+  void note(Counter counter, std::uint64_t value) noexcept;  ///< unless it is higher already
+  std::uint64_t get(Counter counter) const noexcept;
+
+  bool leave() noexcept;  ///< true for the first
+  void wait_for_leavers() const noexcept;
+  bool is_lost(int rank) const noexcept;  ///< false for one of another host
+
+ private:
+  struct Board {
+    std::atomic<int> left_ranks;
+    std::array<std::atomic<std::uint64_t>, kCounters> counters;
+  };
+  static_assert(std::atomic<std::uint64_t>::is_always_lock_free);
+
+  std::atomic<std::uint64_t>& at(Counter counter) const noexcept {
+    return board_->counters[static_cast<std::size_t>(counter)];
+  }
+
+  MPI_Comm host_ = MPI_COMM_NULL;
+  MPI_Win window_ = MPI_WIN_NULL;
+  Board* board_ = nullptr;
+  std::atomic<bool>* left_ = nullptr;  ///< behind the board, a rank each
+  int place_ = 0;                      ///< this rank's
+  int cores_ = 1;
+  std::vector<int> pids_;    ///< 0: of a process that cannot be seen from here
+  std::vector<int> places_;  ///< by rank among all; -1: on another host
+};
+
+}  // namespace leafhull

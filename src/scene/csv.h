@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace leafhull {
+
+/// The fields of a line of comma-separated values, blanks around them left out. Within quotes a
+/// comma is text and "" is a quote. They lie in `line`, which is rewritten for that.
+/// Not a library's: Debian's fast-cpp-csv-parser knows its columns when it is compiled, and libcsv
+/// numbers no lines.
+/// @throws BadRow: a quote without an end, or text after it.
+void split_csv(std::string& line, std::vector<std::string_view>& fields);
+
+/// A field fit to be read by `split_csv`.
+std::string csv_field(std::string_view text);
+
+}  // namespace leafhull

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <set>
+#include <string>
+
+#include "scene/scatter_row.h"
+
+namespace leafhull {
+
+/// Reads the lines of a .jsonl one after the other, an object each.
+class JsonRows {
+ public:
+  /// @returns true. @throws BadRow.
+  bool read(std::string& line, ScatterRow& row);
+
+  /// Names of members that say nothing here, for a warning; else empty.
+  std::string passed_over() const;
+
+ private:
+  std::set<std::string> unknown_;
+};
+
+}  // namespace leafhull

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <random>
+
+namespace leafhull {
+
+/// Numbers that are the same with every standard library, whose distributions are not.
+class Random {
+ public:
+  explicit Random(std::uint64_t seed) : engine_(seed) {}
+
+  /// From [0, 1).
+  double number() { return static_cast<double>(engine_() >> 11) * 0x1p-53; }
+  double number(double low, double high) { return low + (high - low) * number(); }
+
+  /// Below `count`, which is far below 2^53.
+  std::size_t index(std::size_t count) {
+    return static_cast<std::size_t>(number() * static_cast<double>(count));
+  }
+
+ private:
+  std::mt19937_64 engine_;
+};
+
+}  // namespace leafhull

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "leafhull/error.h"
+#include "leafhull/scene.h"
+#include "scene/gltf_scene.h"
+#include "scene/scatter_file.h"
+#include "text/file_name.h"
+#include "text/text.h"
+
+namespace leafhull {
+
+Scene read_scene(const std::filesystem::path& path, const LeafOptions& leaves) {
+  const std::string extension = lower_extension(path);
+  if (extension == ".csv") return read_csv_scene(path);
+  if (extension == ".jsonl" || extension == ".ndjson") return read_jsonl_scene(path);
+  if (extension == ".glb" || extension == ".gltf") return read_gltf_scene(path, leaves);
+  throw Error(ErrorCode::input, printable(path.string(), 1000) + " is not a scene",
+              "A scene is a scatter file (.csv or .jsonl: tree files and where they stand) or a "
+              "glTF file (.glb or .gltf) whose nodes are trees.");
+}
+
+}  // namespace leafhull

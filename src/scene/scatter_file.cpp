@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/scatter_file.h"
+
+#include <map>
+#include <system_error>
+#include <unordered_map>
+
+#include "leafhull/error.h"
+#include "scene/csv_rows.h"
+#include "scene/json_rows.h"
+#include "scene/lines.h"
+#include "scene/scene_builder.h"
+#include "text/text.h"
+
+namespace leafhull {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The tree files that the lines name; two spellings of one file are one model.
+class TreeFiles {
+ public:
+  explicit TreeFiles(const fs::path& scatter_file) : folder_(scatter_file.parent_path()) {}
+
+  /// @throws BadRow: there is no such file.
+  std::uint32_t number(const std::string& name, SceneBuilder& builder) {
+    const auto known = by_name_.find(name);
+    if (known != by_name_.end()) return known->second;
+    return by_name_[name] = number_of_file(name, builder);
+  }
+
+ private:
+  std::uint32_t number_of_file(const std::string& name, SceneBuilder& builder) {
+    if (name.empty()) throw BadRow{"its model is empty", "Name a tree file."};
+    const fs::path file = folder_ / name;
+    std::error_code error;
+    fs::path canonical = fs::canonical(file, error);
+    if (!error && fs::is_directory(canonical))
+      error = std::make_error_code(std::errc::is_a_directory);
+    if (error) {
+      throw BadRow{
+          "the tree file " + printable(file.string(), 1000) + " is not there: " + error.message(),
+          "Model names are paths from the folder of the scatter file."};
+    }
+    const auto [known, is_new] = by_file_.try_emplace(std::move(canonical));
+    if (is_new) {
+      SceneModel model;
+      model.file = file;
+      known->second = builder.add_model(std::move(model), printable(file.stem().string()));
+    }
+    return known->second;
+  }
+
+  fs::path folder_;
+  std::unordered_map<std::string, std::uint32_t> by_name_;
+  std::map<fs::path, std::uint32_t> by_file_;
+};
+
+template <class Rows>
+Scene read_rows(const fs::path& file, Rows rows) {
+  SceneBuilder builder(file);
+  TreeFiles tree_files(file);
+  Lines lines(file);
+  ScatterRow row;
+  const auto model = [&] { return tree_files.number(row.model, builder); };
+  const auto place = [&] { return "line " + std::to_string(lines.number()); };
+  try {
+    while (lines.next()) {
+      if (rows.read(lines.text(), row)) builder.add(placed(row), model, place);
+    }
+  } catch (const BadRow& bad) {
+    throw Error(ErrorCode::input, printable(file.string(), 1000) + ", " + place() + ": " + bad.what,
+                bad.remedy);
+  }
+  if (const std::string names = rows.passed_over(); !names.empty()) {
+    builder.warn("passed over: " + names);
+  }
+  return builder.finish();
+}
+
+}  // namespace
+
+Scene read_csv_scene(const fs::path& file) { return read_rows(file, CsvRows()); }
+Scene read_jsonl_scene(const fs::path& file) { return read_rows(file, JsonRows()); }
+
+}  // namespace leafhull

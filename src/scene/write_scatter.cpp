@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <string>
+#include <system_error>
+
+#include "leafhull/error.h"
+#include "leafhull/output.h"
+#include "leafhull/scene.h"
+#include "scene/csv.h"
+#include "scene/height_field.h"
+#include "scene/poisson_disk.h"
+#include "text/text.h"
+
+namespace leafhull {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMostTrees = 1'000'000;
+constexpr double kMostAspect = 1e6;
+
+void require(bool holds, const std::string& what, const char* remedy) {
+  if (!holds) throw Error(ErrorCode::usage, what, remedy);
+}
+
+bool is_positive(double value) { return value > 0 && std::isfinite(value); }
+
+void check(const ScatterOptions& options) {
+  require(!options.trees.empty(), "no tree is to be scattered", "Name one tree file or more.");
+  require(options.count >= 1 && options.count <= kMostTrees,
+          "--count " + std::to_string(options.count) + " is out of range",
+          "Give the number of trees, from 1 to 1000000.");
+  if (options.area) {
+    const auto [x, y] = *options.area;
+    require(is_positive(x) && is_positive(y), "--area has a side that is not a positive number",
+            "Give its sides along x and z, such as 200x100.");
+    require(std::max(x, y) / std::min(x, y) <= kMostAspect, "--area is a line",
+            "Give sides that are less than a million times as long as each other.");
+  }
+  require(is_positive(options.spacing), "--spacing is not a positive number",
+          "Give the distance between neighbours in widths of a crown, such as 0.8.");
+  require(is_positive(options.scale_low) && options.scale_low <= options.scale_high &&
+              std::isfinite(options.scale_high),
+          "--scale is not a range of positive numbers", "Give LOW:HIGH, such as 0.8:1.2.");
+  require(!options.ground || std::isfinite(options.ground->height), "--height is not a number",
+          "Give the height of white above black.");
+}
+
+/// Of the leaves, along x and z, in the mean of all trees.
+double mean_crown_width(const ScatterOptions& options) {
+  double sum = 0;
+  for (const fs::path& tree : options.trees) {
+    const Vec3d size = find_leaves(read_tree(tree), options.leaves).bounds.size();
+    sum += (size.x + size.z) / 2;
+  }
+  return sum / static_cast<double>(options.trees.size());
+}
+
+Vec2d area_of(const ScatterOptions& options) {
+  const double width = mean_crown_width(options);
+  if (options.area) return *options.area;
+  const double scale = (options.scale_low + options.scale_high) / 2;
+  const double side =
+      options.spacing * width * scale * std::sqrt(static_cast<double>(options.count));
+  if (!is_positive(side)) {
+    throw Error(ErrorCode::input, "the leaves of the trees have no width",
+                "Give the sides of the rectangle with --area.");
+  }
+  return {side, side};
+}
+
+/// A model's name in the scatter file: its path from there.
+std::string model_name(const fs::path& tree, const fs::path& scatter_file) {
+  // Links on the way are followed, so that .. leads back; the tree keeps its name.
+  const auto real_folder = [](const fs::path& file) {
+    std::error_code error;
+    const fs::path folder = file.parent_path();
+    return fs::weakly_canonical(folder.empty() ? fs::path(".") : folder, error);
+  };
+  const std::string name =
+      (real_folder(tree) / tree.filename()).lexically_proximate(real_folder(scatter_file)).string();
+  require(name.find_first_of("\r\n") == std::string::npos,
+          "the name of " + printable(tree.string(), 1000) + " breaks a line",
+          "Give the file another name.");
+  return csv_field(name);
+}
+
+/// As many decimals as tell a ten-thousandth of `size`.
+int decimals_for(double size) {
+  return std::clamp(4 - static_cast<int>(std::floor(std::log10(size))), 0, 15);
+}
+
+double rounded(double value, int decimals) {
+  const double power = std::pow(10.0, decimals);
+  const double scaled = std::round(value * power);
+  return std::abs(scaled) < 0x1p53 ? scaled / power + 0.0 : value;  // + 0.0: no -0
+}
+
+void append(std::string& text, double value) {
+  std::array<char, 32> digits;
+  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
+  text.append(digits.data(), end);
+}
+
+}  // namespace
+
+void write_scatter(const ScatterOptions& options, const fs::path& file) {
+  check(options);
+  for (const fs::path& tree : options.trees) check_output(file, ".csv", tree);
+  std::vector<std::string> names;
+  for (const fs::path& tree : options.trees) names.push_back(model_name(tree, file));
+  const std::optional<HeightField> ground =
+      options.ground ? std::optional<HeightField>(*options.ground) : std::nullopt;
+  const Vec2d area = area_of(options);
+
+  Random random(options.seed);
+  const Disks disks = poisson_disks(area, options.count, random);
+  const int decimals = decimals_for(disks.distance);
+  const int scale_decimals = decimals_for(options.scale_low);
+  std::string text = "model,x,y,z,yaw,scale\n";
+  for (const Vec2d& centre : disks.centres) {
+    const double u = centre.x / area.x, v = centre.y / area.y;
+    const double height = ground ? ground->at(u, v) : 0;
+    text += names[random.index(names.size())];
+    for (const double coordinate : {centre.x - area.x / 2, height, centre.y - area.y / 2}) {
+      append(text += ',', rounded(coordinate, decimals));
+    }
+    append(text += ',', rounded(random.number(0, 360), 2));
+    const double scale = random.number(options.scale_low, options.scale_high);
+    append(text += ',',
+           std::clamp(rounded(scale, scale_decimals), options.scale_low, options.scale_high));
+    text += '\n';
+  }
+  write_file(file, text);
+}
+
+}  // namespace leafhull

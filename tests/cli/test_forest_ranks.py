@@ -1,0 +1,146 @@
+# SPDX-License-Identifier: Apache-2.0
+"""leafhull forest under mpirun."""
+
+import os
+import pathlib
+import re
+import signal
+import subprocess
+import time
+import unittest
+
+from command import CommandTest
+
+MPIRUN = os.environ["MPIRUN"]
+LOST = re.compile(
+    r"leafhull: rank (\d) \(\S+, process (\d+)\) died; still to do: (\d+) of (\d+) tiles; "
+    r"the same command with --resume goes on"
+)
+STOPPED = re.compile(
+    r"leafhull: stopped; (still to do: \d+ of \d+ tiles; )?"
+    r"the same command with --resume goes on"
+)
+
+
+def listen_to_interrupts():
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, signal.SIG_DFL)
+
+
+def ranks_of(mpirun):
+    """The process of each rank."""
+    found = {}
+    for folder in pathlib.Path("/proc").iterdir():
+        try:
+            parent = int((folder / "stat").read_text().rpartition(")")[2].split()[1])
+            words = (folder / "environ").read_bytes().split(b"\0") if parent == mpirun else []
+        except (OSError, ValueError, IndexError):
+            continue
+        for word in words:
+            if word.startswith(b"OMPI_COMM_WORLD_RANK="):
+                found[int(word.partition(b"=")[2])] = int(folder.name)
+    return found
+
+
+def our_lines(text):
+    return [line for line in text.splitlines() if line.startswith("leafhull: ")]
+
+
+@unittest.skipUnless(MPIRUN, "leafhull is built without MPI")
+class ForestRanks(CommandTest):
+    def setUp(self):
+        super().setUp()
+        rows = [f"tree.glb,{x},0,{z}" for x in range(8) for z in range(8)]
+        text = "\n".join(["model,x,y,z", *rows, ""])
+        self.scene = self.input("stand.csv", text.encode())
+
+    def command(self, ranks, folder, *flags, scene=None):
+        return [
+            MPIRUN, "--allow-run-as-root", "--oversubscribe", "--bind-to", "none", "-n", str(ranks),
+            os.environ["LEAFHULL"], "forest", str(scene or self.scene), "-o", str(folder), *flags,
+        ]  # fmt: skip
+
+    def start(self, *arguments, **options):
+        return subprocess.Popen(
+            self.command(*arguments, **options),
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+            preexec_fn=listen_to_interrupts,
+        )
+
+    def end(self, process):
+        _, text = process.communicate(timeout=300)
+        return process.returncode, text
+
+    def bytes_in(self, folder):
+        return {
+            str(path.relative_to(folder)): path.read_bytes()
+            for path in sorted(folder.rglob("*"))
+            if path.is_file()
+        }
+
+    def test_ranks_do_not_change_a_byte(self):
+        flags = ("--voxel-size", "0.1", "--tile", "32", "--levels", "2")
+        self.succeed("forest", self.scene, "-o", self.out / "alone", *flags)
+        alone = self.bytes_in(self.out / "alone")
+        self.assertIn("tileset.json", alone)
+        for ranks in (1, 2, 4):
+            folder = self.out / str(ranks)
+            code, text = self.end(self.start(ranks, folder, *flags))
+            self.assertEqual(code, 0, text)
+            self.assertEqual(len(our_lines(text)), 1, text)
+            self.assertEqual(self.bytes_in(folder), alone)
+
+    def test_a_rank_that_is_killed(self):
+        flags = ("--voxel-size", "0.04", "--tile", "32")
+        folder = self.out / "stand"
+        for delay in (1.5, 1.2, 1.0, 0.8):
+            process = self.start(4, folder, *flags, "--restart")
+            time.sleep(delay)
+            victim = ranks_of(process.pid).get(2)
+            if victim is None:
+                process.communicate()
+                continue
+            os.kill(victim, signal.SIGKILL)
+            code, text = self.end(process)
+            if code == 0:
+                continue
+            self.assertEqual(code, 128 + signal.SIGKILL, text)
+            (line,) = our_lines(text)
+            told = LOST.fullmatch(line.replace(" in place of --restart", ""))
+            self.assertIsNotNone(told, line)
+            self.assertLessEqual(int(told[3]), int(told[4]))
+            self.assertEqual((int(told[1]), int(told[2])), (2, victim))
+            code, text = self.end(self.start(2, folder, *flags, "--resume"))
+            self.assertEqual(code, 0, text)
+            self.succeed("forest", self.scene, "-o", self.out / "whole", *flags)
+            self.assertEqual(self.bytes_in(folder), self.bytes_in(self.out / "whole"))
+            return
+        self.fail("no run could be caught while it worked")
+
+    def test_an_interrupt_is_answered_once(self):
+        process = self.start(4, self.out / "stand", "--voxel-size", "0.04", "--tile", "32")
+        time.sleep(1.2)
+        process.send_signal(signal.SIGINT)
+        code, text = self.end(process)
+        self.assertNotEqual(code, 0)
+        lines = our_lines(text)
+        self.assertEqual(len(lines), 1, text)
+        self.assertRegex(lines[0], STOPPED)
+
+    def test_an_error_ends_all_ranks_with_its_code(self):
+        scene = self.input("broken.csv", b"model,x,y,z\nno.glb,0,0,0\n")
+        code, text = self.end(self.start(4, self.out / "stand", scene=scene))
+        self.assertEqual(code, 3, text)
+        self.assertEqual(len(our_lines(text)), 1, text)
+        self.assertRegex(our_lines(text)[0], r"leafhull: error: rank \d: .*no\.glb")
+
+    def test_ranks_that_were_started_with_different_words(self):
+        one = self.command(1, self.out / "stand")
+        other = self.command(1, self.out / "other")
+        command = [*one, ":", *other[other.index("-n") :]]
+        result = subprocess.run(command, capture_output=True, text=True, timeout=100)
+        self.assertEqual(result.returncode, 2, result.stderr)
+        self.assertEqual(len(our_lines(result.stderr)), 1, result.stderr)
+        self.assertIn("other words", our_lines(result.stderr)[0])

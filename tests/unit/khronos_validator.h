@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "output_sample.h"
+
+namespace leafhull::test {
+
+/// That the Khronos validator finds neither errors nor warnings; skips, loudly, where it is not
+/// there, so it comes last in a test. What it says goes to `log`.
+inline void expect_valid_gltf(const std::vector<std::filesystem::path>& files,
+                              const std::filesystem::path& log) {
+  std::string command = "'" LEAFHULL_NODE "' '" LEAFHULL_VALIDATE_GLB "' '" LEAFHULL_VALIDATOR "'";
+  for (const std::filesystem::path& file : files) command += " '" + file.string() + "'";
+  const int status = std::system((command + " >'" + log.string() + "' 2>&1").c_str());
+  const std::string said = read_file(log);
+  if (WEXITSTATUS(status) == 77 || WEXITSTATUS(status) == 127) {
+    GTEST_SKIP() << "NOT CHECKED against the Khronos validator; to have it: "
+                    "cmake --build BUILD --target gltf_validator (needs Node.js and npm)\n"
+                 << said;
+  }
+  EXPECT_EQ(WEXITSTATUS(status), 0) << said;
+}
+
+}  // namespace leafhull::test
