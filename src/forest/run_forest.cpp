@@ -235,17 +235,18 @@ class Run {
     watch_.start("tiles");
     const std::vector<Work> work = work_to_do();
     summary_.resumed = all_ - work.size();
+    if (ranks_.rank() == 0) ranks_.add(Sum::tiles, summary_.resumed);
     ranks_.reset();
+    tell("tiles", summary_.resumed, all_);
     for (std::uint64_t i = ranks_.next(); i < work.size(); i = ranks_.next()) {
-      tell("tiles", summary_.resumed + i, all_);
       const auto start = std::chrono::steady_clock::now();
       const TileSurface surface = forest_.compute(work[i], device_);
       const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
       store_->put(surface,
                   record_of_surface(forest_.id(work[i]), surface, elapsed.count(), ranks_.rank()));
-      leaf_vertices_ += surface.leaf_vertices;
+      leaf_vertices_ = ranks_.add(Sum::leaf_vertices, surface.leaf_vertices);
+      tell("tiles", ranks_.add(Sum::tiles, 1), all_);
     }
-    tell("tiles", all_, all_);
   }
 
   void count_tiles() {
