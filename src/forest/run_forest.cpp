@@ -213,27 +213,32 @@ class Run {
     watch_.start("tiles");
     const std::vector<Work> work = work_to_do();
     summary_.resumed = all_ - work.size();
+    if (ranks_.rank() == 0) ranks_.add(Sum::tiles, summary_.resumed);
     ranks_.reset();
-    std::future<void> writing;  // of the tile before, while the next is computed
+    tell("tiles", summary_.resumed, all_);
+    std::future<std::uint64_t> writing;  // of the tile before, while the next is computed
+    const auto wait = [&] {
+      if (!writing.valid()) return;
+      leaf_vertices_ = ranks_.add(Sum::leaf_vertices, writing.get());
+      tell("tiles", ranks_.add(Sum::tiles, 1), all_);
+    };
     for (std::uint64_t i = ranks_.next(); i < work.size(); i = ranks_.next()) {
-      tell("tiles", summary_.resumed + i, all_);
       const auto start = std::chrono::steady_clock::now();
       TileSurface surface = forest_.compute(work[i], device_);
       const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
-      leaf_vertices_ += surface.leaf_vertices;
       TileRecord record;
       record.id = forest_.id(work[i]);
       record.seconds = elapsed.count();
       record.resident_bytes = resident_memory();
       record.rank = ranks_.rank();
-      if (writing.valid()) writing.get();
+      wait();
       writing = std::async(std::launch::async,
                            [this, surface = std::move(surface), record = std::move(record)] {
                              store_->put(surface, record);
+                             return surface.leaf_vertices;
                            });
     }
-    if (writing.valid()) writing.get();
-    tell("tiles", all_, all_);
+    wait();
   }
 
   void count_tiles() {

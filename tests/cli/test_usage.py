@@ -7,7 +7,7 @@ class Usage(CommandTest):
         self.fail_with(2, words, "extract", self.tree, "-o", self.shape, *flags)
 
     def test_verbs(self):
-        self.fail_with(2, ["extract, inspect, suggest, sweep, study, render, forest, devices"])
+        self.fail_with(2, ["extract, inspect, suggest, sweep, study, render, forest, scatter, devices"])
         self.fail_with(2, ["'extrat'", "Did you mean extract?"], "extrat", self.tree)
         self.fail_with(2, ["--verbose", "before the verb"], "--verbose", "extract", self.tree)
 
