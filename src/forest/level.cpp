@@ -118,20 +118,24 @@ double threshold_of(const ForestLevel& level, std::span<const ModelUse> uses,
   return *options.threshold * mean / weighted_mean(finest->models, uses);
 }
 
-/// Twelve times the volume of a model's largest piece, standing alone.
-ExactVolume largest_piece(const ForestModel& model, const ForestLevel& level, Device& device) {
-  const Lattice lattice = Lattice::near(model.bounds.low, level.voxel_size);
+/// Twelve times the volume of a model's largest piece, standing alone, in voxels of the level;
+/// measured on voxels no smaller than a share of the tree, so that it takes no more memory than a
+/// tile.
+double largest_piece(const ForestModel& model, const ForestLevel& level, Device& device) {
+  constexpr double kMostVoxels = 128;
+  const double side = model.bounds.longest_side() + 2 * model.reach;
+  const double voxel_size = std::max(level.voxel_size, side / kMostVoxels);
+  const Lattice lattice = Lattice::near(model.bounds.low, voxel_size);
   const auto hash = std::make_shared<const SpatialHash>(
-      model.kernels, Lattice::near(model.bounds.low, std::max(model.reach, level.voxel_size)));
+      model.kernels, Lattice::near(model.bounds.low, std::max(model.reach, side / kMostVoxels)));
   DensityFunction density(device, model.kernels, hash, lattice, level.options.falloff);
   const auto sampled = density.sample_band({level.threshold}, 1, false,
                                            DensityFunction::Lists::forget, [](double) {});
-  ExactVolume largest = 0;
-  const Polygons polygons = mesh_bricks(sampled.field);
-  for (const auto& [root, volume] : exact_volumes(polygons, lattice)) {
-    largest = std::max(largest, volume < 0 ? -volume : volume);
+  double largest = 0;
+  for (const auto& [root, volume] : exact_volumes(mesh_bricks(sampled.field), lattice)) {
+    largest = std::max(largest, std::fabs(static_cast<double>(volume)));
   }
-  return largest;
+  return largest * std::pow(voxel_size / level.voxel_size, 3);
 }
 
 }  // namespace
@@ -194,7 +198,7 @@ ForestLevel prepare_level(int number, std::span<const LeafSet> models,
     double smallest = HUGE_VAL;
     for (std::size_t m = 0; m < models.size(); ++m) {
       if (uses[m].trees == 0) continue;
-      const auto alone = static_cast<double>(largest_piece(level.models[m], level, device));
+      const double alone = largest_piece(level.models[m], level, device);
       if (alone > 0) smallest = std::min(smallest, alone * uses[m].smallest_volume);
     }
     if (smallest < HUGE_VAL) level.least = static_cast<ExactVolume>(share * smallest);

@@ -1,24 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "forest/plan.h"
 
-#include <sys/statvfs.h>
-
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <limits>
 #include <unordered_map>
 
+#include "forest/tile_count.h"
 #include "forest/tree_map.h"
 #include "leafhull/error.h"
 
 namespace leafhull {
 namespace {
 
-constexpr int kEdges[] = {128, 64, 32};
-/// Lattice coordinates are 32 bits, with room for neighbours.
-constexpr double kMostCoordinate = 1 << 30;
-constexpr double kMostTiles = 1e7;
+constexpr int kEdges[] = {kTileEdge, kTileEdge / 2, kTileEdge / 4};
 /// Beside models and tiles: the program, its libraries and compiled kernels, and batches of lists.
 constexpr double kFixedBytes = 400.0 * (1 << 20);
 /// Of a kernel: on the lattice, in order of the scene and of the hash, and the hash itself.
@@ -39,20 +33,9 @@ struct Hash {
   }
 };
 
-/// Where a tree's density may be needed: within reach of a tile's samples and the brick around
-/// them.
 Box reached_box(const PlacedTree& tree, const ForestLevel& level) {
   const ForestModel& model = level.models[tree.model];
-  const TreeMap map(tree);
-  Box box = map(model.bounds);
-  const double r = model.reach * map.stretch() + (kBrickEdge + 2) * level.voxel_size;
-  box.low = box.low - Vec3d(r, r, r);
-  box.high = box.high + Vec3d(r, r, r);
-  return box;
-}
-
-double tiles_along(double low, double high, double side) {
-  return std::floor(high / side) - std::floor(low / side) + 1;
+  return reached_box(tree, model.bounds, model.reach, level.voxel_size);
 }
 
 Range tiles_in(const Box& box, double side) {
@@ -89,12 +72,6 @@ double bytes_of_models(std::span<const ForestLevel> levels) {
     }
   }
   return bytes;
-}
-
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value);
-  return text;
 }
 
 }  // namespace
@@ -137,48 +114,6 @@ double TilePlan::heaviest() const {
   return weights_.empty() ? 0 : *std::max_element(weights_.begin(), weights_.end());
 }
 
-double most_tiles(const Scene& scene, const ForestLevel& level, int edge) {
-  const double side = edge * level.voxel_size;
-  double tiles = 0;
-  Box all;
-  for (const PlacedTree& tree : scene.trees) {
-    const Box box = reached_box(tree, level);
-    all.include(box.low);
-    all.include(box.high);
-    tiles += tiles_along(box.low.x, box.high.x, side) * tiles_along(box.low.y, box.high.y, side) *
-             tiles_along(box.low.z, box.high.z, side);
-  }
-  const double farthest =
-      std::max({std::fabs(all.low.x), std::fabs(all.low.y), std::fabs(all.low.z),
-                std::fabs(all.high.x), std::fabs(all.high.y), std::fabs(all.high.z)});
-  if (farthest / level.voxel_size > kMostCoordinate) {
-    throw Error(ErrorCode::usage,
-                "the scene reaches " + number(farthest) +
-                    " units from the origin, more than 2^30 " + "voxels of " +
-                    number(level.voxel_size),
-                "Raise --voxel-size, or move the scene to the origin.");
-  }
-  return std::min(tiles, tiles_along(all.low.x, all.high.x, side) *
-                             tiles_along(all.low.y, all.high.y, side) *
-                             tiles_along(all.low.z, all.high.z, side));
-}
-
-void check_tile_count(double tiles, double voxel_size, const std::filesystem::path& folder) {
-  double room = kMostTiles;
-  std::filesystem::path place = std::filesystem::absolute(folder);
-  while (!place.empty() && !std::filesystem::exists(place)) place = place.parent_path();
-  struct statvfs status {};
-  // Some file systems make their inodes as they need them and say 0.
-  if (::statvfs(place.c_str(), &status) == 0 && status.f_files > 0) {
-    room = std::min(room, static_cast<double>(status.f_favail) / 3);  // mesh, seam, its place
-  }
-  if (tiles <= room) return;
-  throw Error(ErrorCode::usage,
-              "voxels of " + number(voxel_size) + " need up to " + number(tiles) +
-                  " tiles, and there is room for " + number(room) + " in " + folder.string(),
-              "Raise --voxel-size or --tile.");
-}
-
 int tile_edge(const Scene& scene, std::span<const ForestLevel> levels, std::optional<int> asked,
               std::uint64_t memory, const std::filesystem::path& folder) {
   const double left = static_cast<double>(memory) - kFixedBytes - bytes_of_models(levels) -
@@ -186,11 +121,12 @@ int tile_edge(const Scene& scene, std::span<const ForestLevel> levels, std::opti
   double needed = 0;
   for (const int edge : asked ? std::span<const int>(&*asked, 1) : std::span<const int>(kEdges)) {
     double tiles = 0, heaviest = 0;
-    for (const ForestLevel& level : levels) tiles += most_tiles(scene, level, edge);
-    check_tile_count(tiles, levels.front().voxel_size, folder);
     for (const ForestLevel& level : levels) {
-      heaviest = std::max(heaviest, TilePlan(scene, level, edge).heaviest());
+      const TilePlan plan(scene, level, edge);
+      tiles += static_cast<double>(plan.size());
+      heaviest = std::max(heaviest, plan.heaviest());
     }
+    check_room_for_tiles(tiles, levels.front().voxel_size, folder);
     const double samples = std::pow(edge + 2.0 * kBrickEdge, 3) * kShareOfSamples;
     // Kernels in the brick around the tile as well.
     const double around = std::pow(1 + 2.0 * kBrickEdge / edge, 2);
@@ -201,9 +137,9 @@ int tile_edge(const Scene& scene, std::span<const ForestLevel> levels, std::opti
   throw Error(
       ErrorCode::usage,
       "the densest tile needs about " +
-          number((needed + static_cast<double>(memory) - left) / kGiB) +
-          " GiB with the models, and --memory is " + number(static_cast<double>(memory) / kGiB) +
-          " GiB",
+          short_number((needed + static_cast<double>(memory) - left) / kGiB) +
+          " GiB with the models, and --memory is " +
+          short_number(static_cast<double>(memory) / kGiB) + " GiB",
       asked ? "Raise --memory, or lower --tile." : "Raise --memory, or lower --voxel-size.");
 }
 

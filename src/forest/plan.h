@@ -13,6 +13,9 @@
 
 namespace leafhull {
 
+/// Cells along a tile where nothing else is asked for.
+inline constexpr int kTileEdge = 128;
+
 /// The tiles of a level and the trees that reach each.
 class TilePlan {
  public:
@@ -36,13 +39,6 @@ class TilePlan {
   std::vector<std::uint32_t> trees_;
   std::vector<float> weights_;
 };
-
-/// At most how many tiles the trees need at a level, before any is made.
-double most_tiles(const Scene& scene, const ForestLevel& level, int edge);
-
-/// @throws Error usage: more tiles than the file system of `folder` can hold, or than leafhull
-/// counts.
-void check_tile_count(double tiles, double voxel_size, const std::filesystem::path& folder);
 
 /// Cells along a tile: `asked`, or 128, or less where the heaviest tile would not fit in `memory`
 /// beside the models. @throws Error usage: it does not fit in any case.

@@ -13,6 +13,7 @@
 #include "forest/plan.h"
 #include "forest/scene_control.h"
 #include "forest/store.h"
+#include "forest/tile_count.h"
 #include "forest/tileset.h"
 #include "leafhull/error.h"
 #include "leafhull/forest.h"
@@ -147,6 +148,8 @@ class Run {
     const std::vector<ModelUse> uses = model_uses(scene_);
     const std::vector<LeafSet> models = read_models(scene_, uses, resolved.leaf_options());
     const double voxel_size = voxel_size_of(models, uses, resolved);
+    check_tile_count(scene_, models, resolved, voxel_size, options_.tile.value_or(kTileEdge),
+                     folder_);
     for (int l = 0; l < options_.levels; ++l) {
       const ForestLevel* finest = l > 0 ? &forest_.levels.front() : nullptr;
       ForestLevel level = prepare_level(l, models, uses, resolved, voxel_size, finest, device_);
