@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cerrno>
 #include <cstdio>
 #include <fstream>
@@ -65,8 +66,9 @@ FileRecord ForestFolder::write(const fs::path& file,
 
 void ForestFolder::link(const fs::path& file, const fs::path& name) const {
   make_folder(name.parent_path());
-  const fs::path temporary = work() / ("." + writer_ + ".link.tmp");
-  ::unlink(temporary.c_str());
+  static std::atomic<unsigned> count{0};  // several threads put tiles in place
+  const fs::path temporary = work() / ("." + writer_ + "." + std::to_string(count++) + ".tmp");
+  ::unlink(temporary.c_str());  // of a process that was killed
   if (::link(file.c_str(), temporary.c_str()) != 0) {
     write(name, [&](std::ostream& stream) { stream << content_of(file); });
     return;
