@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "density/near_kernels.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
+#include <cstring>
 
 #include "density/simd.h"
 
@@ -10,40 +15,130 @@ namespace leafhull {
 namespace {
 
 constexpr std::size_t kGroup = sizeof(Floats) / sizeof(float);
-
-constexpr LocalBox kNowhere{{HUGE_VALF, HUGE_VALF, HUGE_VALF},
-                            {-HUGE_VALF, -HUGE_VALF, -HUGE_VALF}};
-
-Vec3f least(Vec3f a, Vec3f b) {
-  return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)};
-}
-Vec3f most(Vec3f a, Vec3f b) {
-  return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)};
-}
+/// From what is searched, voxels.
+constexpr float kFarAway = 1e15f;
 
 }  // namespace
 
-struct alignas(32) NearKernels::Group {
-  Floats x, y, z;  // centres
+struct alignas(32) KernelGroups::Group {
+  Ints cell_x, cell_y, cell_z;  // of the centres
+  Floats x, y, z;               // offsets within
   Floats xx, xy, xz, yy, yz, zz;
-  std::uint32_t ranks[kGroup];
 };
 
-/// Boxes around the centres of eight groups.
+/// Eight boxes, those around the centres of a group each.
 struct alignas(32) NearKernels::Boxes {
   Floats low_x, low_y, low_z, high_x, high_y, high_z;
 };
 
+struct alignas(32) NearKernels::Centres {
+  Floats x, y, z;
+};
+
+KernelGroups::KernelGroups(std::span<const LatticeKernel> kernels)
+    : groups_(new Group[(kernels.size() + kGroup - 1) / kGroup]) {
+  tbb::parallel_for(std::size_t{0}, (kernels.size() + kGroup - 1) / kGroup, [&](std::size_t g) {
+    Group& group = groups_[g];
+    const auto members = kernels.subspan(g * kGroup, std::min(kGroup, kernels.size() - g * kGroup));
+    for (std::size_t i = 0; i < kGroup; ++i) {
+      const LatticeKernel out_of_reach{members[0].cell, {0, 0, kFarAway}, 0, 0, 0, 0, 0, 1};
+      const LatticeKernel& k = i < members.size() ? members[i] : out_of_reach;
+      group.cell_x[i] = k.cell.x, group.cell_y[i] = k.cell.y, group.cell_z[i] = k.cell.z;
+      group.x[i] = k.offset.x, group.y[i] = k.offset.y, group.z[i] = k.offset.z;
+      group.xx[i] = k.xx, group.xy[i] = k.xy, group.xz[i] = k.xz;
+      group.yy[i] = k.yy, group.yz[i] = k.yz, group.zz[i] = k.zz;
+    }
+  });
+}
+
+KernelGroups::~KernelGroups() = default;
+
 namespace {
 
-template <class Group>
-FOR_EVERY_VECTOR_WIDTH std::size_t list_reaching(const Group* groups,
+/// The lanes of a truth, a bit each.
+ALWAYS_INLINE unsigned bits_of(Ints truth) {
+#ifdef __SSE__
+  using Half = float __attribute__((vector_size(16)));
+  const auto lanes = std::bit_cast<Floats>(truth);
+  const Half low = __builtin_shufflevector(lanes, lanes, 0, 1, 2, 3);
+  const Half high = __builtin_shufflevector(lanes, lanes, 4, 5, 6, 7);
+  return static_cast<unsigned>(__builtin_ia32_movmskps(low) | __builtin_ia32_movmskps(high) << 4);
+#else
+  unsigned bits = 0;
+  for (unsigned i = 0; i < kGroup; ++i) bits |= static_cast<unsigned>(-truth[i]) << i;
+  return bits;
+#endif
+}
+
+/// The numbers of the bits that are set in a byte.
+constexpr auto kSetBits = [] {
+  std::array<std::array<std::int32_t, kGroup>, 1 << kGroup> numbers{};
+  for (unsigned bits = 0; bits < numbers.size(); ++bits) {
+    std::size_t size = 0;
+    for (unsigned i = 0; i < kGroup; ++i) {
+      if (bits >> i & 1) numbers[bits][size++] = static_cast<std::int32_t>(i);
+    }
+  }
+  return numbers;
+}();
+
+/// Writes `first` plus the number of each lane that holds to `list`, where eight may be written:
+/// how many do.
+ALWAYS_INLINE std::size_t list_lanes(Ints truth, std::uint32_t first, std::uint32_t* list) {
+  const unsigned bits = bits_of(truth);
+  const Ints numbers = std::bit_cast<Ints>(kSetBits[bits]) + static_cast<std::int32_t>(first);
+  std::memcpy(list, &numbers, sizeof numbers);
+  return static_cast<std::size_t>(std::popcount(bits));
+}
+
+/// The least (or the largest, whatever `choose` takes) of each of eight vectors.
+template <class Choose>
+ALWAYS_INLINE Floats fold(const Floats* v, Choose&& choose) {
+  const auto halves = [&](Floats a, Floats b) {
+    return choose(__builtin_shufflevector(a, b, 0, 2, 4, 6, 8, 10, 12, 14),
+                  __builtin_shufflevector(a, b, 1, 3, 5, 7, 9, 11, 13, 15));
+  };
+  return halves(halves(halves(v[0], v[1]), halves(v[2], v[3])),
+                halves(halves(v[4], v[5]), halves(v[6], v[7])));
+}
+
+/// Eight groups' centres from `origin`, and the boxes around them.
+template <class Group, class Centres, class Boxes>
+FOR_EVERY_VECTOR_WIDTH void place(const Group* groups, std::span<const std::uint32_t> chosen,
+                                  Coord origin, Centres* centres, Boxes* boxes) {
+  const auto along = [&](Ints cell, Floats offset, std::int32_t from) {
+    return __builtin_convertvector(cell - from, Floats) + offset;
+  };
+  const auto smaller = [](Floats a, Floats b) { return a < b ? a : b; };
+  const auto larger = [](Floats a, Floats b) { return a > b ? a : b; };
+  for (std::size_t first = 0; first < chosen.size(); first += kGroup, ++boxes) {
+    Floats x[kGroup], y[kGroup], z[kGroup];
+    for (std::size_t i = 0; i < kGroup; ++i) {
+      if (first + i >= chosen.size()) {
+        x[i] = y[i] = z[i] = Floats{} + kFarAway;
+        continue;
+      }
+      const Group& k = groups[chosen[first + i]];
+      x[i] = along(k.cell_x, k.x, origin.x);
+      y[i] = along(k.cell_y, k.y, origin.y);
+      z[i] = along(k.cell_z, k.z, origin.z);
+      centres[first + i] = {x[i], y[i], z[i]};
+    }
+    *boxes = {fold(x, smaller), fold(y, smaller), fold(z, smaller),
+              fold(x, larger),  fold(y, larger),  fold(z, larger)};
+  }
+}
+
+template <class Group, class Centres>
+FOR_EVERY_VECTOR_WIDTH std::size_t list_reaching(const Group* groups, const std::uint32_t* gathered,
+                                                 const Centres* centres,
                                                  std::span<const std::uint32_t> near, Vec3f q,
                                                  Vec3f half, std::uint32_t* list) {
   std::size_t size = 0;
-  for (const std::uint32_t group : near) {
-    const Group& k = groups[group];
-    const Floats dx = q.x - k.x, dy = q.y - k.y, dz = q.z - k.z;
+  for (const std::uint32_t place : near) {
+    const Centres& c = centres[place];
+    const Group& k = groups[gathered[place]];
+    const Floats dx = q.x - c.x, dy = q.y - c.y, dz = q.z - c.z;
     const Floats mx = absolute(k.xx * dx + k.xy * dy + k.xz * dz);
     const Floats my = absolute(k.yy * dy + k.yz * dz);
     const Floats mz = absolute(k.zz * dz);
@@ -52,90 +147,58 @@ FOR_EVERY_VECTOR_WIDTH std::size_t list_reaching(const Group* groups,
     const Floats ez = half.z * k.zz;
     const Floats x = positive(mx - ex), y = positive(my - ey), z = positive(mz - ez);
     const Ints reaches = x * x + y * y + z * z < 1.0f + kXiSlack;
-    for (std::size_t i = 0; i < kGroup; ++i) {
-      list[size] = k.ranks[i];
-      size += static_cast<std::size_t>(-reaches[i]);
-    }
+    size += list_lanes(reaches, gathered[place] * static_cast<std::uint32_t>(kGroup), list + size);
   }
   return size;
 }
 
 template <class Boxes>
-FOR_EVERY_VECTOR_WIDTH std::size_t list_near(const Boxes* boxes, std::size_t groups, LocalBox box,
+FOR_EVERY_VECTOR_WIDTH std::size_t list_near(const Boxes* boxes, std::size_t count, LocalBox box,
                                              float reach, std::uint32_t* list) {
   const float square = reach * reach;
   std::size_t size = 0;
-  for (std::uint32_t first = 0; first < groups; first += kGroup, ++boxes) {
+  for (std::uint32_t first = 0; first < count; first += kGroup, ++boxes) {
     const Floats x = positive(larger(boxes->low_x - box.high.x, box.low.x - boxes->high_x));
     const Floats y = positive(larger(boxes->low_y - box.high.y, box.low.y - boxes->high_y));
     const Floats z = positive(larger(boxes->low_z - box.high.z, box.low.z - boxes->high_z));
-    const Ints near = x * x + y * y + z * z <= square;
-    for (std::uint32_t i = 0; i < kGroup; ++i) {
-      list[size] = first + i;
-      size += static_cast<std::size_t>(-near[i]);
-    }
+    size += list_lanes(x * x + y * y + z * z <= square, first, list + size);
   }
   return size;
 }
 
 }  // namespace
 
-NearKernels::NearKernels() = default;
+NearKernels::NearKernels(const KernelSet& set, const KernelGroups& groups)
+    : set_(set), groups_(groups) {}
 NearKernels::~NearKernels() = default;
+NearKernels::NearKernels(NearKernels&&) noexcept = default;
 
-void NearKernels::set_box(std::size_t group, const LocalBox& box) {
-  Boxes& boxes = boxes_[group / kGroup];
-  const std::size_t i = group % kGroup;
-  boxes.low_x[i] = box.low.x, boxes.low_y[i] = box.low.y, boxes.low_z[i] = box.low.z;
-  boxes.high_x[i] = box.high.x, boxes.high_y[i] = box.high.y, boxes.high_z[i] = box.high.z;
-}
-
-void NearKernels::load(const KernelSet& set, Coord origin, const LocalBox& box) {
+void NearKernels::load(Coord origin, const LocalBox& box) {
   const Vec3d from = to_vec3d(origin);
-  set.gather(from + Vec3d(box.low), from + Vec3d(box.high), gathered_);
+  set_.gather(from + Vec3d(box.low), from + Vec3d(box.high), gathered_);
+  for (std::uint32_t& rank : gathered_) rank /= kGroup;
+  gathered_.erase(std::unique(gathered_.begin(), gathered_.end()), gathered_.end());
+
   const Vec3f size = box.high - box.low;
-  reach_ = static_cast<float>(set.reach());
+  reach_ = static_cast<float>(set_.reach());
   slack_ = kDistanceSlack * (reach_ + std::max({size.x, size.y, size.z}));
 
-  const std::size_t count = (gathered_.size() + kGroup - 1) / kGroup;
-  count_ = count;
-  if (groups_.size() < count) groups_.resize(count);
-  if (boxes_.size() <= count / kGroup) boxes_.resize(count / kGroup + 1);
-  const std::span<const LatticeKernel> kernels = set.kernels();
-  for (std::size_t g = 0; g < count; ++g) {
-    Group& group = groups_[g];
-    LocalBox centres = kNowhere;
-    const std::size_t filled = std::min(kGroup, gathered_.size() - g * kGroup);
-    for (std::size_t i = 0; i < filled; ++i) {
-      const LatticeKernel& k = kernels[gathered_[g * kGroup + i]];
-      const Vec3f c =
-          Vec3f(static_cast<float>(k.cell.x - origin.x), static_cast<float>(k.cell.y - origin.y),
-                static_cast<float>(k.cell.z - origin.z)) +
-          k.offset;
-      centres = {least(centres.low, c), most(centres.high, c)};
-      group.x[i] = c.x, group.y[i] = c.y, group.z[i] = c.z;
-      group.xx[i] = k.xx, group.xy[i] = k.xy, group.xz[i] = k.xz;
-      group.yy[i] = k.yy, group.yz[i] = k.yz, group.zz[i] = k.zz;
-      group.ranks[i] = gathered_[g * kGroup + i];
-    }
-    for (std::size_t i = filled; i < kGroup; ++i) {  // out of reach
-      group.z[i] = 1e15f, group.zz[i] = 1;
-      group.xx[i] = group.xy[i] = group.xz[i] = group.yy[i] = group.yz[i] = 0;
-    }
-    set_box(g, centres);
-  }
-  for (std::size_t g = count; g % kGroup != 0; ++g) set_box(g, kNowhere);
+  const std::size_t count = gathered_.size();
+  centres_.resize(std::max(count, centres_.size()));
+  boxes_.resize(std::max(count / kGroup + 1, boxes_.size()));
+  place(groups_.groups_.get(), gathered_, origin, centres_.data(), boxes_.data());
 }
 
 void NearKernels::append_reaching(const LocalBox& box, std::vector<std::uint32_t>& ranks) {
-  near_.resize(count_ + kGroup);  // what is written before it is known to count
-  near_.resize(
-      list_near(boxes_.data(), count_, box, reach_ * (1 + kXiSlack) + slack_, near_.data()));
+  near_.resize(gathered_.size() + kGroup);  // what is written before it is known to count
+  near_.resize(list_near(boxes_.data(), gathered_.size(), box, reach_ * (1 + kXiSlack) + slack_,
+                         near_.data()));
   const Vec3f half =
       0.5f * (1 + kPositionSlack) * (box.high - box.low) + Vec3f(slack_, slack_, slack_);
   const std::size_t before = ranks.size();
   ranks.resize(before + (near_.size() + 1) * kGroup);
-  ranks.resize(before + list_reaching(groups_.data(), near_, 0.5f * (box.low + box.high), half,
+  ranks.resize(before + list_reaching(groups_.groups_.get(), gathered_.data(), centres_.data(),
+                                      near_, 0.5f * (box.low + box.high), half,
                                       ranks.data() + before));
 }
 

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
+#include <span>
 #include <vector>
 
 #include "density/kernel_set.h"
@@ -13,16 +15,30 @@ struct LocalBox {
   Vec3f low, high;
 };
 
-/// The kernels near a place in groups of eight neighbours, transposed, so that a box is tested
-/// against eight at once: first the groups, then the kernels of those that are near.
+/// Kernels in groups of eight that follow each other in rank, transposed, so that a box is tested
+/// against eight at once.
+class KernelGroups {
+ public:
+  explicit KernelGroups(std::span<const LatticeKernel> kernels);
+  ~KernelGroups();
+
+ private:
+  friend class NearKernels;
+  struct Group;
+  std::unique_ptr<Group[]> groups_;
+};
+
+/// The kernels near a place: first their groups, then the kernels of those that are near.
 class NearKernels {
  public:
-  NearKernels();
+  /// `groups`: of the kernels of `set`.
+  NearKernels(const KernelSet& set, const KernelGroups& groups);
   ~NearKernels();
+  NearKernels(NearKernels&&) noexcept;
 
-  /// Takes from `set` the kernels whose support may reach `box`, and some beyond. Boxes are counted
-  /// from `origin` until the next load.
-  void load(const KernelSet& set, Coord origin, const LocalBox& box);
+  /// Takes the kernels whose support may reach `box`, and some beyond. Boxes are counted from
+  /// `origin` until the next load.
+  void load(Coord origin, const LocalBox& box);
 
   /// Appends the ranks of the kernels whose support may reach `box`, rounding included, ascending.
   /// With d from a kernel's centre to that of the box, m_r = |U_r d| and
@@ -31,15 +47,14 @@ class NearKernels {
   void append_reaching(const LocalBox& box, std::vector<std::uint32_t>& ranks);
 
  private:
-  struct alignas(32) Group;
-  struct alignas(32) Boxes;
+  struct Centres;
+  struct Boxes;
 
-  void set_box(std::size_t group, const LocalBox& box);
-
-  std::vector<std::uint32_t> gathered_;
-  std::vector<Group> groups_;
-  std::vector<Boxes> boxes_;
-  std::size_t count_ = 0;  // of groups
+  const KernelSet& set_;
+  const KernelGroups& groups_;
+  std::vector<std::uint32_t> gathered_;  // groups
+  std::vector<Centres> centres_;         // of each
+  std::vector<Boxes> boxes_;             // around them
   std::vector<std::uint32_t> near_;
   float reach_ = 0, slack_ = 0;  // voxels
 };

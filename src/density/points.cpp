@@ -106,26 +106,27 @@ LocalBox reach_of(const LocalBox& box, Within within) {
 /// Searches a cluster at a time: halves it, by whole chunks, along the longest side.
 class Search {
  public:
-  Search(const KernelSet& set, Within within) : set_(set), within_(within) {}
+  Search(const KernelSet& set, const KernelGroups& groups, Within within)
+      : near_(set, groups), within_(within) {}
 
-  /// The cluster's chunks go to `batch` from `chunk` on. Replaces `ranks` by their lists, from
-  /// which chunks count.
+  /// The cluster's chunks go to `batch` from `chunk` on, their lists to `ranks`, from which they
+  /// count.
   template <class T>
   void operator()(std::span<const Vec3<T>> points, const Cluster& cluster, std::size_t chunk,
                   PointBatch& batch, std::vector<std::uint32_t>& ranks) {
     origin_ = cluster.runs.front().frame;
     batch_ = &batch;
     chunk_ = chunk;
-    ranks_.clear();
+    ranks_ = &ranks;
+    ranks.clear();
     members_.clear();
     for (const Run& run : cluster.runs) {
       for (std::uint32_t i = run.begin; i < run.end; ++i) {
         members_.push_back({Vec3f(Vec3d(points[i]) - to_vec3d(origin_)), i});
       }
     }
-    near_.load(set_, origin_, reach_of(box_of(members_), within_));
+    near_.load(origin_, reach_of(box_of(members_), within_));
     halve(members_);
-    ranks.assign(ranks_.begin(), ranks_.end());
   }
 
  private:
@@ -145,9 +146,9 @@ class Search {
   }
 
   void add_chunk(std::span<const Member> members, const LocalBox& reach) {
-    const auto first = static_cast<std::uint32_t>(ranks_.size());
-    near_.append_reaching(reach, ranks_);
-    batch_->chunks[chunk_] = {origin_, first, static_cast<std::uint32_t>(ranks_.size())};
+    const auto first = static_cast<std::uint32_t>(ranks_->size());
+    near_.append_reaching(reach, *ranks_);
+    batch_->chunks[chunk_] = {origin_, first, static_cast<std::uint32_t>(ranks_->size())};
     for (std::size_t lane = 0; lane < kChunkPoints; ++lane) {
       const Member& m = members[std::min(lane, members.size() - 1)];
       const std::size_t at = chunk_ * kChunkPoints + lane;
@@ -157,33 +158,33 @@ class Search {
     ++chunk_;
   }
 
-  const KernelSet& set_;
-  Within within_;
   NearKernels near_;
+  Within within_;
   std::vector<Member> members_;
-  std::vector<std::uint32_t> ranks_;
   Coord origin_;
   PointBatch* batch_ = nullptr;
+  std::vector<std::uint32_t>* ranks_ = nullptr;
   std::size_t chunk_ = 0;
 };
 
+/// Replaces `batch` by the chunks of `clusters`. `lists` is room to work in.
 template <class T>
-PointBatch search(std::span<const Vec3<T>> points, std::span<const Cluster> clusters,
-                  tbb::enumerable_thread_specific<Search>& searches) {
+void search(std::span<const Vec3<T>> points, std::span<const Cluster> clusters,
+            tbb::enumerable_thread_specific<Search>& searches,
+            std::vector<std::vector<std::uint32_t>>& lists, PointBatch& batch) {
   std::vector<std::size_t> first_chunk{0};
   for (const Cluster& c : clusters) first_chunk.push_back(first_chunk.back() + chunks_of(c.points));
-  PointBatch batch;
   batch.chunks.resize(first_chunk.back());
   batch.index.resize(first_chunk.back() * kChunkPoints);
   for (auto* v : {&batch.x, &batch.y, &batch.z}) v->resize(batch.index.size());
 
-  std::vector<std::vector<std::uint32_t>> lists(clusters.size());
+  lists.resize(std::max(clusters.size(), lists.size()));
   tbb::parallel_for(std::size_t{0}, clusters.size(), [&](std::size_t i) {
     searches.local()(points, clusters[i], first_chunk[i], batch, lists[i]);
   });
 
   std::vector<std::size_t> first{0};
-  for (const auto& list : lists) first.push_back(first.back() + list.size());
+  for (std::size_t i = 0; i < clusters.size(); ++i) first.push_back(first[i] + lists[i].size());
   if (first.back() > std::numeric_limits<std::uint32_t>::max()) {
     throw Error(ErrorCode::usage, "too many kernels reach one place",
                 "Lower --radius-max or --leaf-scale.");
@@ -197,7 +198,6 @@ PointBatch search(std::span<const Vec3<T>> points, std::span<const Cluster> clus
       batch.chunks[c].end += static_cast<std::uint32_t>(first[i]);
     }
   });
-  return batch;
 }
 
 template <class T>
@@ -205,14 +205,18 @@ void find_near(const KernelSet& set, std::span<const Vec3<T>> points, Within wit
                const std::function<void(PointBatch&)>& visit) {
   const std::vector<Run> runs = sorted_runs(points);
   const std::vector<Cluster> clusters = in_clusters(runs);
-  tbb::enumerable_thread_specific<Search> searches([&] { return Search(set, within); });
+  if (clusters.empty()) return;
+  const KernelGroups groups(set.kernels());
+  tbb::enumerable_thread_specific<Search> searches([&] { return Search(set, groups, within); });
   // Should every kernel reach every point: at most 64 MiB of ranks, or one cluster.
   constexpr std::size_t kMostEntries = std::size_t{1} << 24;
   std::size_t group = std::clamp<std::size_t>(
       kMostEntries / (chunks_of(kClusterPoints) * set.kernels().size() + 1), 1, 64);
+  std::vector<std::vector<std::uint32_t>> lists;
+  PointBatch batch;
   for (std::size_t begin = 0, end = 0; begin < clusters.size(); begin = end) {
     end = std::min(begin + group, clusters.size());
-    PointBatch batch = search(points, std::span(clusters).subspan(begin, end - begin), searches);
+    search(points, std::span(clusters).subspan(begin, end - begin), searches, lists, batch);
     group = std::clamp<std::size_t>(kBatchEntries * (end - begin) / (batch.kernels.size() + 1), 1,
                                     std::min(4 * group, kBatchClusters));
     visit(batch);

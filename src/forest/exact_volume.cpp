@@ -4,7 +4,6 @@
 #include <tbb/parallel_for.h>
 
 #include <array>
-#include <cmath>
 
 #include "surface/components.h"
 
@@ -27,7 +26,7 @@ WideVec cross(WideVec a, WideVec b) {
 /// From the origin of the global lattice.
 WideVec exact(Vec3f p, const Lattice& lattice) {
   const auto at = [](std::int64_t anchor, float v) {
-    const auto units = static_cast<std::int64_t>(std::ldexp(static_cast<double>(v), 13));
+    const auto units = static_cast<std::int64_t>(static_cast<double>(v) * 0x1p13);
     return static_cast<Wide>(static_cast<ExactVolume>((anchor << 13) + units));
   };
   return {at(lattice.anchor.x, p.x), at(lattice.anchor.y, p.y), at(lattice.anchor.z, p.z)};

@@ -38,24 +38,27 @@ class Border {
   const SampleBox& own_;
 };
 
-/// Takes out the points that `stays` denies and their faces; the order is kept.
+/// Takes out the pieces that `stays` denies, `root` telling the piece of each point; the order is
+/// kept.
 template <class Stays>
-void keep(OwnedPolygons& part, Stays&& stays) {
+void keep(OwnedPolygons& part, std::vector<std::uint32_t>& root, Stays&& stays) {
   Polygons& polygons = part.polygons;
   const auto points = static_cast<std::uint32_t>(polygons.points.size());
   std::vector<std::uint32_t> moved_to(points);
-  std::erase_if(polygons.faces, [&](const auto& face) { return !stays(face[0]); });
+  std::erase_if(polygons.faces, [&](const auto& face) { return !stays(root[face[0]]); });
   std::uint32_t next = 0, own = 0;
   for (std::uint32_t v = 0; v < points; ++v) {
-    if (!stays(v)) continue;
+    if (!stays(root[v])) continue;
     polygons.points[next] = polygons.points[v];
     part.patches[next] = part.patches[v];
+    root[next] = root[v];
     moved_to[v] = next++;
     if (v < part.own) own = next;
   }
   part.own = own;
   polygons.points.resize(next);
   part.patches.resize(next);
+  root.resize(next);
   for (auto& face : polygons.faces) {
     for (std::uint32_t& v : face) v = moved_to[v];
   }
@@ -65,24 +68,21 @@ void keep(OwnedPolygons& part, Stays&& stays) {
 void sort_out_pieces(OwnedPolygons& part, const ForestLevel& level, const Lattice& lattice,
                      const SampleBox& own, TileSurface& surface) {
   const auto magnitude = [](ExactVolume v) { return v < 0 ? -v : v; };
-  {
-    const Border border(part, own);
-    const std::vector<std::uint32_t> root = component_of_each(part.polygons);
-    std::vector<bool> reaches(root.size(), false), small(root.size(), false);
-    for (std::uint32_t v = 0; v < root.size(); ++v) {
-      if (border.borrowed(v) || border.lent(v)) reaches[root[v]] = true;
-    }
-    for (const auto& [piece, volume] : exact_volumes(part.polygons, lattice, root)) {
-      small[piece] = !reaches[piece] && magnitude(volume) < level.least;
-      if (small[piece]) ++surface.dropped_components;
-    }
-    if (surface.dropped_components > 0) {
-      keep(part, [&](std::uint32_t v) { return !small[root[v]]; });
-    }
+  const Border border(part, own);
+  std::vector<std::uint32_t> root = component_of_each(part.polygons);
+  const auto volumes = exact_volumes(part.polygons, lattice, root);
+  std::vector<bool> reaches(root.size(), false), small(root.size(), false);
+  for (std::uint32_t v = 0; v < root.size(); ++v) {
+    if (border.borrowed(v) || border.lent(v)) reaches[root[v]] = true;
+  }
+  for (const auto& [piece, volume] : volumes) {
+    small[piece] = !reaches[piece] && magnitude(volume) < level.least;
+    if (small[piece]) ++surface.dropped_components;
+  }
+  if (surface.dropped_components > 0) {
+    keep(part, root, [&](std::uint32_t piece) { return !small[piece]; });
   }
 
-  const Border border(part, own);
-  const std::vector<std::uint32_t> root = component_of_each(part.polygons);
   std::unordered_map<std::uint32_t, std::uint32_t> component;
   const auto points = static_cast<std::uint32_t>(root.size());
   for (std::uint32_t v = 0; v < points; ++v) {
@@ -96,7 +96,7 @@ void sort_out_pieces(OwnedPolygons& part, const ForestLevel& level, const Lattic
                     .vertex = v,
                     .component = entry->second});
   }
-  for (const auto& [piece, volume] : exact_volumes(part.polygons, lattice, root)) {
+  for (const auto& [piece, volume] : volumes) {
     const auto entry = component.find(piece);
     if (entry != component.end()) surface.components[entry->second].volume = volume;
   }

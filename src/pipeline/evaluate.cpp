@@ -18,7 +18,7 @@ Coord corner(Coord cell, int i) { return cell + Coord{i >> 2 & 1, i >> 1 & 1, i 
 template <class T>
 Vec3d rounded(Vec3f offset) {
   if constexpr (std::is_same_v<T, float>) return Vec3d(offset);  // the sum is rounded
-  const auto r = [](float v) { return std::round(std::ldexp(static_cast<double>(v), 20)); };
+  const auto r = [](float v) { return std::round(static_cast<double>(v) * 0x1p20); };
   return Vec3d(r(offset.x), r(offset.y), r(offset.z)) * 0x1p-20;
 }
 
