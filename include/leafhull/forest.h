@@ -43,7 +43,8 @@ struct ForestOptions {
   bool finish = false;             ///< only what follows when every tile is there
   bool resume = false;             ///< goes on with what an earlier run has left in the folder
   bool restart = false;            ///< removes what an earlier run has left there
-  std::optional<std::filesystem::path> single;  ///< .glb or .ply: all tiles of level 0, welded
+  /// .glb or .ply, relative to the folder: all tiles of level 0, welded.
+  std::optional<std::filesystem::path> single;
 };
 
 /// Where a run is.

@@ -55,6 +55,15 @@ void check_contradictions(const ForestOptions& forest) {
   refuse_together(apart, "--merge none", forest.finish, "--finish", remedy);
 }
 
+/// The forest's own folder may not be there yet.
+void check_file(const fs::path& file, std::string_view extension, const Arguments& arguments,
+                const fs::path& input) {
+  const bool in_folder = fs::proximate(file, arguments.folder).parent_path().empty();
+  const bool is_named_well = lower_extension(file) == extension;
+  if (in_folder && is_named_well && !fs::exists(arguments.folder)) return;
+  check_output(file, extension, input);
+}
+
 void check_arguments(const Arguments& arguments) {
   (void)resolve(arguments.options);
   if (arguments.folder.empty()) {
@@ -67,11 +76,20 @@ void check_arguments(const Arguments& arguments) {
       throw Error(ErrorCode::usage, "--single cannot be written to " + single->string(),
                   "Name a .glb or .ply file.");
     }
-    check_output(*single, extension, arguments.tree);
+    check_file(*single, extension, arguments, arguments.tree);
   }
   const std::optional<fs::path>& report = arguments.files.report;
-  if (report && *report != "-") check_output(*report, ".json", arguments.tree);
+  if (report && *report != "-") check_file(*report, ".json", arguments, arguments.tree);
   check_output_folder(arguments.folder);
+}
+
+/// A forest does not overwrite its trees.
+void check_single(const Arguments& arguments, const Scene& scene) {
+  const std::optional<fs::path>& single = arguments.forest.single;
+  for (const SceneModel& model : scene.models) {
+    if (!single || model.file.empty()) continue;
+    check_file(*single, lower_extension(*single), arguments, model.file);
+  }
 }
 
 /// Ranks that disagree would wait for each other for ever.
@@ -163,6 +181,8 @@ void make_forest(const Arguments& arguments, Ranks& ranks) {
   check_arguments(arguments);
   ForestOptions options = arguments.forest;
   options.shape = arguments.options;
+  // Names are typed relative to the working folder.
+  if (options.single) options.single = fs::proximate(*options.single, arguments.folder);
   ForestWords words(ranks, arguments.quiet, how_to_go_on(options));
 
   const Options shape = resolve(arguments.options);
@@ -170,6 +190,7 @@ void make_forest(const Arguments& arguments, Ranks& ranks) {
   console.progress("read", 0);
   const Scene scene = read_scene(arguments.tree, shape.leaf_options());
   for (const std::string& warning : scene.warnings) console.warn(warning);
+  check_single(arguments, scene);
   Device device = opening.get();
   console.detail("device      " + device.info().name);
   console.detail("scene       " + counted(scene.trees.size(), "tree") + " of " +

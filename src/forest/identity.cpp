@@ -61,7 +61,6 @@ nlohmann::ordered_json forest_identity(const Scene& scene, std::span<const LeafS
     identity["levels"] = options.levels;
     identity["voxel_size"] = voxel_size;
     identity["tile"] = edge;
-    identity["single"] = options.single ? Json(options.single->string()) : Json();
   }
   return identity;
 }

@@ -25,7 +25,7 @@
 namespace leafhull {
 namespace {
 
-constexpr int kMostLevels = 8;
+constexpr int kMostLevels = 16;
 constexpr int kLargestTile = 512;
 
 void check(const ForestOptions& options) {
@@ -182,6 +182,12 @@ class Run {
                    options_.restart && !joins);
     if (ranks_.rank() == 0) ranks_.barrier();
     summary_.was_finished = store_->finished();
+    if (summary_.was_finished && options_.single && !store_->holds(options_.single->string())) {
+      throw Error(ErrorCode::usage,
+                  folder_.string() + " holds this forest, finished, without " +
+                      options_.single->string(),
+                  "--restart starts over.");
+    }
     return !summary_.was_finished;
   }
 

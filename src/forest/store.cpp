@@ -85,6 +85,7 @@ struct Store::Impl {
   Json plan;  ///< as it is after a way over the disk
   std::string plan_checksum = record_of(dumped(plan)).sha256;
   bool finished = false;
+  Json files;  ///< of a finished forest, by name
   std::optional<LineFile> journal;
   std::map<TileId, TileRecord> done;
   std::vector<std::string> warnings;
@@ -136,7 +137,8 @@ void Store::Impl::open_finished(bool resume) {
                     folder.manifest().string() + " says",
                 kStartOver);
   };
-  for (const auto& [name, record] : manifest.at("files").items()) check(name, record);
+  files = manifest.at("files");
+  for (const auto& [name, record] : files.items()) check(name, record);
   for (const Json& tile : manifest.at("tiles")) check(tile.at("file").get<std::string>(), tile);
   folder.remove_work();  // which may have been cut off
   finished = true;
@@ -196,6 +198,7 @@ Store::~Store() = default;
 const std::map<TileId, TileRecord>& Store::done() const { return impl_->done; }
 void Store::refresh() { impl_->refresh(); }
 bool Store::finished() const { return impl_->finished; }
+bool Store::holds(const std::string& file) const { return impl_->files.contains(file); }
 const std::vector<std::string>& Store::warnings() const { return impl_->warnings; }
 const fs::path& Store::folder() const { return impl_->folder.path(); }
 const std::string& Store::writer() const { return impl_->writer; }

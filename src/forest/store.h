@@ -45,6 +45,8 @@ class Store {
   void refresh();
   /// Whether manifest.json is there: the forest is finished, and nothing is kept any more.
   bool finished() const;
+  /// Whether the finished forest has this file beside its tiles.
+  bool holds(const std::string& file) const;
   /// What was found amiss and is computed again.
   const std::vector<std::string>& warnings() const;
 
