@@ -5,6 +5,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace leafhull {
 namespace {
@@ -37,13 +38,9 @@ KernelSet::KernelSet(std::span<const Kernel> kernels, std::shared_ptr<const Spat
   });
 }
 
-KernelSet::KernelSet(std::span<const LatticeKernel> kernels,
-                     std::shared_ptr<const SpatialHash> hash, const Lattice& lattice, double reach)
-    : hash_(std::move(hash)), lattice_(lattice), kernels_(kernels.size()), reach_(reach) {
-  const std::span<const std::uint32_t> order = hash_->order();
-  tbb::parallel_for(std::size_t{0}, order.size(),
-                    [&](std::size_t rank) { kernels_[rank] = kernels[order[rank]]; });
-}
+KernelSet::KernelSet(std::vector<LatticeKernel> kernels, std::shared_ptr<const SpatialHash> hash,
+                     const Lattice& lattice, double reach)
+    : hash_(std::move(hash)), lattice_(lattice), kernels_(std::move(kernels)), reach_(reach) {}
 
 void KernelSet::gather(Vec3d low, Vec3d high, std::vector<std::uint32_t>& ranks) const {
   constexpr double kRounding = 1e-3;

@@ -18,9 +18,9 @@ class KernelSet {
   /// `hash` is over the centres of `kernels`.
   KernelSet(std::span<const Kernel> kernels, std::shared_ptr<const SpatialHash> hash,
             const Lattice& lattice);
-  /// Of kernels that are on the lattice already, in the order that `hash` is over; none has a radius
-  /// above `reach` voxels. Without radii().
-  KernelSet(std::span<const LatticeKernel> kernels, std::shared_ptr<const SpatialHash> hash,
+  /// Of kernels that are on the lattice already, by rank in `hash`; none has a radius above `reach`
+  /// voxels. Without radii().
+  KernelSet(std::vector<LatticeKernel> kernels, std::shared_ptr<const SpatialHash> hash,
             const Lattice& lattice, double reach);
 
   const Lattice& lattice() const { return lattice_; }

@@ -35,7 +35,7 @@ struct KernelForm {
 inline KernelForm form_of(const Kernel& kernel) {
   const Vec3d major(kernel.major), normal(kernel.normal);
   const auto over = [](Vec3d direction, float radius) {
-    return direction / static_cast<double>(radius);
+    return direction * (1 / static_cast<double>(radius));
   };
   return {over(major, kernel.radius_major), over(cross(normal, major), kernel.radius_minor),
           over(normal, kernel.radius_normal)};
@@ -64,11 +64,11 @@ inline LatticeKernel to_lattice(Vec3d centre, const KernelForm& form, const Latt
   const Vec3d x(u.x, v.x, n.x);
   Vec3d y(u.y, v.y, n.y), z(u.z, v.z, n.z);
 
-  const double xx = length(x), xy = dot(x, y) / xx, xz = dot(x, z) / xx;
-  y = y - x * (xy / xx);
-  z = z - x * (xz / xx);
-  const double yy = length(y), yz = dot(y, z) / yy;
-  z = z - y * (yz / yy);
+  const double xx = length(x), over_xx = 1 / xx, xy = dot(x, y) * over_xx, xz = dot(x, z) * over_xx;
+  y = y - x * (xy * over_xx);
+  z = z - x * (xz * over_xx);
+  const double yy = length(y), over_yy = 1 / yy, yz = dot(y, z) * over_yy;
+  z = z - y * (yz * over_yy);
   local.xx = static_cast<float>(xx), local.xy = static_cast<float>(xy);
   local.xz = static_cast<float>(xz), local.yy = static_cast<float>(yy);
   local.yz = static_cast<float>(yz), local.zz = static_cast<float>(length(z));

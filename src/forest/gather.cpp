@@ -4,6 +4,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "forest/tree_map.h"
 
@@ -84,12 +85,16 @@ KernelSet placed_kernels(const Scene& scene, const ForestLevel& level,
     return std::make_shared<const SpatialHash>(
         centres, Lattice::near(lattice.world({0, 0, 0}), level.reach));
   }();
-  std::vector<LatticeKernel> kernels(count(runs));
+  std::vector<std::uint32_t> rank(count(runs));
+  const std::span<const std::uint32_t> order = hash->order();
+  tbb::parallel_for(std::size_t{0}, order.size(),
+                    [&](std::size_t r) { rank[order[r]] = static_cast<std::uint32_t>(r); });
+  std::vector<LatticeKernel> kernels(rank.size());
   for_each_kernel(scene, level, runs,
                   [&](const TreeMap& map, const ForestModel& model, std::size_t j, std::size_t at) {
-                    kernels[at] = map(kernel(model, j, at), lattice);
+                    kernels[rank[at]] = map(kernel(model, j, at), lattice);
                   });
-  return {kernels, hash, lattice, level.reach / level.voxel_size};
+  return {std::move(kernels), hash, lattice, level.reach / level.voxel_size};
 }
 
 }  // namespace leafhull

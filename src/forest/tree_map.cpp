@@ -20,11 +20,12 @@ TreeMap::TreeMap(const PlacedTree& tree) : position_(tree.position) {
   const double determinant = dot(x_, yz);
   over_x_ = yz / determinant, over_y_ = zx / determinant, over_z_ = xy / determinant;
   volume_ = std::fabs(determinant);
-  const double scale = std::cbrt(volume_), square = scale * scale;
+  scale_ = std::cbrt(volume_);
+  const double square = scale_ * scale_;
   const auto near = [&](double a, double b) { return std::fabs(a - b) <= kSimilar * square; };
   similar_ = near(dot(x_, x_), square) && near(dot(y_, y_), square) && near(dot(z_, z_), square) &&
              near(dot(x_, y_), 0) && near(dot(y_, z_), 0) && near(dot(z_, x_), 0);
-  stretch_ = similar_ ? scale * (1 + kSimilar)
+  stretch_ = similar_ ? scale_ * (1 + kSimilar)
                       : std::sqrt(dot(x_, x_) + dot(y_, y_) + dot(z_, z_));  // Frobenius
 }
 
@@ -40,8 +41,7 @@ Box TreeMap::operator()(const Box& box) const {
 LatticeKernel TreeMap::operator()(const Kernel& kernel, const Lattice& lattice) const {
   const Vec3d centre = (*this)(kernel.centre);
   if (similar_ && is_isotropic(kernel)) {
-    return to_lattice(centre, static_cast<double>(kernel.radius_major) * std::cbrt(volume_),
-                      lattice);
+    return to_lattice(centre, static_cast<double>(kernel.radius_major) * scale_, lattice);
   }
   const KernelForm form = form_of(kernel);
   const auto carried = [&](Vec3d axis) {

@@ -29,7 +29,7 @@ class TreeMap {
   Vec3d x_, y_, z_;                 // rows of A
   Vec3d over_x_, over_y_, over_z_;  // columns of A^-1
   Vec3d position_;
-  double stretch_, volume_;
+  double scale_, stretch_, volume_;
   bool similar_;
 };
 

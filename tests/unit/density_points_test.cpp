@@ -16,7 +16,7 @@ using reference::random_kernels;
 
 struct Near {
   Lattice lattice = Lattice::near({1e4, -2e4, 3e3}, 0.1);
-  std::vector<Kernel> kernels = random_kernels(3000, 5, 0.05f, {1e4, -2e4, 3e3});
+  std::vector<Kernel> kernels = random_kernels(3001, 5, 0.05f, {1e4, -2e4, 3e3});
   KernelSet set{kernels, reference::hash_of(kernels), lattice};
 
   Vec3d somewhere(std::mt19937& random) const {
@@ -39,6 +39,7 @@ TEST(Points, EachComesOnceWithAllKernelsThatReachIt) {
         const PointChunk& chunk = batch.chunks[c];
         const auto list = std::span(batch.kernels).subspan(chunk.first, chunk.end - chunk.first);
         EXPECT_TRUE(std::is_sorted(list.begin(), list.end()));
+        if (!list.empty()) EXPECT_LT(list.back(), near.kernels.size());
         std::set<std::uint32_t> indices;
         for (std::size_t i = c * kChunkPoints; i < (c + 1) * kChunkPoints; ++i) {
           const Vec3d at =
