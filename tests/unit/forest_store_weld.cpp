@@ -5,6 +5,7 @@
 
 #include "forest/tile_mesh.h"
 #include "unit/forest_store_test.h"
+#include "unit/khronos_validator.h"
 
 namespace leafhull::test {
 namespace {
@@ -136,6 +137,16 @@ TEST_F(ForestWeld, WritesAGlb) {
   const Mesh mesh = read_welded_glb(content(folder / "all.glb"));
   expect_equal(mesh, expected.mesh);
   EXPECT_EQ(mesh.origin, Vec3d{});
+}
+
+TEST_F(ForestWeld, PassesTheKhronosValidator) {
+  const FinishedForest forest = put(sample_tiles(), small_pieces(), "all.glb");
+  std::vector<fs::path> files{folder / "all.glb"};
+  for (const auto& entry : fs::directory_iterator(folder / "tiles" / "0")) {
+    files.push_back(entry.path());
+  }
+  EXPECT_EQ(files.size(), 1 + forest.tiles.size());
+  expect_valid_gltf(files, folder / "log");
 }
 
 TEST_F(ForestWeld, KeepsTheDigitsOfAFarForest) {
