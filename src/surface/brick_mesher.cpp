@@ -108,13 +108,16 @@ constexpr auto kCrossings = [] {
   return crossings;
 }();
 
-/// Fractions of a cell are multiples of this, so that sums with the number of a cell are exact and
-/// a point does not depend on the anchor.
-constexpr float kFractions = 1 << 13;
+/// Of a part, fractions of a cell are multiples of 2^-13, so that sums with the number of a cell
+/// are exact and a point does not depend on the anchor.
+float rounded(float fraction) {
+  constexpr float kFractions = 1 << 13;
+  return std::min(std::floor(fraction * kFractions), kFractions - 1) / kFractions;
+}
 
 /// low + fraction, kept below low + 1.
 float within_cell(float low, float fraction) {
-  const float p = low + std::min(std::floor(fraction * kFractions), kFractions - 1) / kFractions;
+  const float p = low + fraction;
   return p < low + 1 ? p : std::nextafter(low + 1, low);
 }
 
@@ -156,6 +159,7 @@ class Mesher {
   std::vector<Bits> inside_;
   std::array<float, kBrickSamples> proven_outside_, proven_inside_;
   std::vector<BrickCells> cells_;
+  const bool part_;  ///< or the whole
   std::vector<Role> roles_;
 };
 
@@ -166,6 +170,7 @@ Mesher::Mesher(const Field& field, const SampleBox* own)
       values_(bricks_.size() + 2),
       inside_(bricks_.size() + 2),
       cells_(bricks_.size()),
+      part_(own != nullptr),
       roles_(bricks_.size(), Role::own) {
   tbb::parallel_sort(bricks_,
                      [](const Brick* a, const Brick* b) { return a->origin() < b->origin(); });
@@ -288,7 +293,8 @@ void Mesher::place_vertices(Index b, Vec3f* points) const {
         ++count;
       });
       const auto place = [&](int from, unsigned step, float total) {
-        return within_cell(static_cast<float>(from + static_cast<int>(step)), total / count);
+        const float fraction = part_ ? rounded(total / count) : total / count;
+        return within_cell(static_cast<float>(from + static_cast<int>(step)), fraction);
       };
       *points++ = {place(origin.x(), x, sum.x), place(origin.y(), y, sum.y),
                    place(origin.z(), z, sum.z)};
