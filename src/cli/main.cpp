@@ -67,9 +67,9 @@ CLI::App* add_verb(CLI::App& app, const Verb& verb, Arguments& arguments) {
 }
 
 void run(const std::vector<std::string>& command) {
-  const std::array verbs = {extract_verb(),      inspect_verb(),       suggest_verb(),
-                            sweep_verb(),        study_verb(),         render_verb(),
-                            forest_verb(),       scatter_verb(),       devices_verb(),
+  const std::array verbs = {extract_verb(),      inspect_verb(),      suggest_verb(),
+                            sweep_verb(),        study_verb(),        render_verb(),
+                            forest_verb(),       scatter_verb(),      devices_verb(),
                             help_options_verb(), help_forests_verb(), help_pictures_verb(),
                             help_styles_verb()};
   const std::vector<Flag> flags = help_flags();
