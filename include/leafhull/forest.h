@@ -35,7 +35,7 @@ struct ForestOptions {
   Options shape;  ///< as of an extraction; a resolution counts along the largest tree
   Merge merge = Merge::canopy;
   ControlScope control_scope = ControlScope::model;
-  int levels = 1;                                 ///< of abstraction, 1 to 16
+  int levels = 1;                                 ///< of abstraction, 1 to 8
   std::uint64_t memory = std::uint64_t{4} << 30;  ///< bytes that a rank may hold
   std::optional<int> tile;  ///< voxels along a tile's edge, a multiple of 32 up to 512; empty: 128,
                             ///< or less where the memory asks for it
@@ -70,7 +70,8 @@ struct TileRow {
 /// A level of abstraction as it came out.
 struct LevelRow {
   int level = 0;
-  double voxel_size = 0, threshold = 0;  ///< h, T
+  double voxel_size = 0;  ///< h
+  double threshold = 0;   ///< T; NaN where it is the scene's and --finish did not need it
   double error = 0;  ///< how far its surface may be from that of level 0, scene units
 };
 

@@ -11,7 +11,7 @@ namespace leafhull::cli {
 namespace {
 
 constexpr std::uint64_t kLeastMemory = std::uint64_t{256} << 20;
-constexpr int kMostLevels = 16;
+constexpr int kMostLevels = 8;
 constexpr int kTileStep = 32, kLargestTile = 512;
 constexpr int kMostParts = 1'000'000;
 
@@ -71,7 +71,7 @@ std::vector<Flag> merge_flags() {
       {.spelling = "--levels",
        .value = "N",
        .group = "Forest",
-       .range = "[1, 16]",
+       .range = "[1, 8]",
        .default_value = "1",
        .help = "levels of abstraction, each with voxels and R_max twice as large",
        .set =

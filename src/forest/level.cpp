@@ -20,6 +20,8 @@ namespace {
 constexpr std::uint32_t kGroup = 64;
 /// A model is not thinned below this many leaf vertices.
 constexpr std::size_t kFewest = 64;
+/// Along a model whose volume is taken, so that this needs little memory.
+constexpr double kMostVoxels = 128;
 
 /// The leaf vertices of a level; those of a model are in Morton order, so that every n-th is spread
 /// evenly.
@@ -118,11 +120,13 @@ double threshold_of(const ForestLevel& level, std::span<const ModelUse> uses,
   return *options.threshold * mean / weighted_mean(finest->models, uses);
 }
 
-/// Twelve times the volume of a model's largest piece, standing alone.
-ExactVolume largest_piece(const ForestModel& model, const ForestLevel& level, Device& device) {
-  const Lattice lattice = Lattice::near(model.bounds.low, level.voxel_size);
+/// Twelve times the volume of a model's largest piece, standing alone, in voxels of the level as
+/// ExactVolume counts them; but taken on larger ones where the model would have too many.
+double largest_piece(const ForestModel& model, const ForestLevel& level, Device& device) {
+  const double voxel_size = std::max(level.voxel_size, model.bounds.longest_side() / kMostVoxels);
+  const Lattice lattice = Lattice::near(model.bounds.low, voxel_size);
   const auto hash = std::make_shared<const SpatialHash>(
-      model.kernels, Lattice::near(model.bounds.low, std::max(model.reach, level.voxel_size)));
+      model.kernels, Lattice::near(model.bounds.low, std::max(model.reach, voxel_size)));
   DensityFunction density(device, model.kernels, hash, lattice, level.options.falloff);
   const auto sampled = density.sample_band({level.threshold}, 1, false,
                                            DensityFunction::Lists::forget, [](double) {});
@@ -131,7 +135,7 @@ ExactVolume largest_piece(const ForestModel& model, const ForestLevel& level, De
   for (const auto& [root, volume] : exact_volumes(polygons, lattice)) {
     largest = std::max(largest, volume < 0 ? -volume : volume);
   }
-  return largest;
+  return static_cast<double>(largest) * std::pow(voxel_size / level.voxel_size, 3);
 }
 
 }  // namespace
@@ -189,17 +193,19 @@ ForestLevel prepare_level(int number, std::span<const LeafSet> models,
   level.threshold = threshold_of(level, uses, finest);
   // The surface of level L lies around leaves that stand up to R_max apart, on its voxels.
   level.error = level.voxel_size + radius_max * (1 - std::ldexp(1.0, -number));
-
-  if (const double share = *resolved.min_component; share > 0) {
-    double smallest = HUGE_VAL;
-    for (std::size_t m = 0; m < models.size(); ++m) {
-      if (uses[m].trees == 0) continue;
-      const auto alone = static_cast<double>(largest_piece(level.models[m], level, device));
-      if (alone > 0) smallest = std::min(smallest, alone * uses[m].smallest_volume);
-    }
-    if (smallest < HUGE_VAL) level.least = static_cast<ExactVolume>(share * smallest);
-  }
   return level;
+}
+
+ExactVolume least_volume(const ForestLevel& level, std::span<const ModelUse> uses, Device& device) {
+  const double share = *level.options.min_component;
+  if (share == 0) return 0;
+  double smallest = HUGE_VAL;
+  for (std::size_t m = 0; m < level.models.size(); ++m) {
+    if (uses[m].trees == 0) continue;
+    const double alone = largest_piece(level.models[m], level, device);
+    if (alone > 0) smallest = std::min(smallest, alone * uses[m].smallest_volume);
+  }
+  return smallest < HUGE_VAL ? static_cast<ExactVolume>(share * smallest) : 0;
 }
 
 double threshold_for_coverage(std::vector<WeightedDensity>& densities, double coverage) {

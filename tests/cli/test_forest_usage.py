@@ -21,9 +21,9 @@ class ForestUsage(CommandTest):
 
     def test_out_of_range(self):
         for flag, text, words in (
-            ("--levels", "0", ["1 to 16"]),
-            ("--levels", "17", ["1 to 16"]),
-            ("--levels", "two", ["1 to 16"]),
+            ("--levels", "0", ["1 to 8"]),
+            ("--levels", "9", ["1 to 8"]),
+            ("--levels", "two", ["1 to 8"]),
             ("--tile", "16", ["32 to 512"]),
             ("--tile", "544", ["32 to 512"]),
             ("--tile", "100", ["multiple of 32", "96 or 128"]),
