@@ -70,7 +70,8 @@ struct TileRow {
 /// A level of abstraction as it came out.
 struct LevelRow {
   int level = 0;
-  double voxel_size = 0, threshold = 0;  ///< h, T
+  double voxel_size = 0;  ///< h
+  double threshold = 0;   ///< T; NaN where it is the scene's and --finish did not need it
   double error = 0;  ///< how far its surface may be from that of level 0, scene units
 };
 

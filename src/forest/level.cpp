@@ -20,6 +20,8 @@ namespace {
 constexpr std::uint32_t kGroup = 64;
 /// A model is not thinned below this many leaf vertices.
 constexpr std::size_t kFewest = 64;
+/// Along a model whose volume is taken, so that this needs little memory.
+constexpr double kMostVoxels = 128;
 
 /// The leaf vertices of a level; those of a model are in Morton order, so that every n-th is spread
 /// evenly.
@@ -122,7 +124,6 @@ double threshold_of(const ForestLevel& level, std::span<const ModelUse> uses,
 /// measured on voxels no smaller than a share of the tree, so that it takes no more memory than a
 /// tile.
 double largest_piece(const ForestModel& model, const ForestLevel& level, Device& device) {
-  constexpr double kMostVoxels = 128;
   const double side = model.bounds.longest_side() + 2 * model.reach;
   const double voxel_size = std::max(level.voxel_size, side / kMostVoxels);
   const Lattice lattice = Lattice::near(model.bounds.low, voxel_size);
@@ -193,17 +194,19 @@ ForestLevel prepare_level(int number, std::span<const LeafSet> models,
   level.threshold = threshold_of(level, uses, finest);
   // A voxel, and what R_max has grown by since level 0.
   level.error = level.voxel_size + radius_max * (1 - std::ldexp(1.0, -number));
-
-  if (const double share = *resolved.min_component; share > 0) {
-    double smallest = HUGE_VAL;
-    for (std::size_t m = 0; m < models.size(); ++m) {
-      if (uses[m].trees == 0) continue;
-      const double alone = largest_piece(level.models[m], level, device);
-      if (alone > 0) smallest = std::min(smallest, alone * uses[m].smallest_volume);
-    }
-    if (smallest < HUGE_VAL) level.least = static_cast<ExactVolume>(share * smallest);
-  }
   return level;
+}
+
+ExactVolume least_volume(const ForestLevel& level, std::span<const ModelUse> uses, Device& device) {
+  const double share = *level.options.min_component;
+  if (share == 0) return 0;
+  double smallest = HUGE_VAL;
+  for (std::size_t m = 0; m < level.models.size(); ++m) {
+    if (uses[m].trees == 0) continue;
+    const double alone = largest_piece(level.models[m], level, device);
+    if (alone > 0) smallest = std::min(smallest, alone * uses[m].smallest_volume);
+  }
+  return smallest < HUGE_VAL ? static_cast<ExactVolume>(share * smallest) : 0;
 }
 
 double threshold_for_coverage(std::vector<WeightedDensity>& densities, double coverage) {

@@ -69,12 +69,16 @@ std::vector<LeafSet> read_models(const Scene& scene, std::span<const ModelUse> u
 double voxel_size_of(std::span<const LeafSet> models, std::span<const ModelUse> uses,
                      const Options& resolved);
 
-/// Prepares a level: kernels of every model, T, and how small a piece may be. T as a coverage or a
+/// Prepares a level: kernels of every model and T. T as a coverage or a
 /// percentage of m is taken over the leaf vertices of all trees, each tree standing alone; T itself
 /// keeps its ratio to m from level to level. `finest`: level 0, for the others.
 ForestLevel prepare_level(int level, std::span<const LeafSet> models,
                           std::span<const ModelUse> uses, const Options& resolved,
                           double voxel_size, const ForestLevel* finest, Device& device);
+
+/// The level's `least`: the share that the options ask for, of the largest piece of the smallest
+/// tree, standing alone. Computes the surface of every model.
+ExactVolume least_volume(const ForestLevel& level, std::span<const ModelUse> uses, Device& device);
 
 /// T for a coverage of weighted densities, which are sorted: as threshold_for_coverage where all
 /// weights are one.

@@ -25,7 +25,7 @@
 namespace leafhull {
 namespace {
 
-constexpr int kMostLevels = 16;
+constexpr int kMostLevels = 8;
 constexpr int kLargestTile = 512;
 
 void check(const ForestOptions& options) {
@@ -121,6 +121,8 @@ class Run {
     if (!options_.finish) {
       if (options_.control_scope == ControlScope::scene) control();
       compute();
+    } else if (options_.control_scope == ControlScope::scene) {
+      for (ForestLevel& level : forest_.levels) level.threshold = NAN;  // those who computed know
     }
     ranks_.barrier();
     store_->refresh();
@@ -167,6 +169,8 @@ class Run {
     for (const ForestLevel& level : forest_.levels) {
       forest_.plans.emplace_back(scene_, level, forest_.edge);
     }
+    // Which computes surfaces, so that what cannot be has been refused before.
+    for (ForestLevel& level : forest_.levels) level.least = least_volume(level, uses, device_);
     identity_ = forest_identity(scene_, models, options_, device_.info(), voxel_size, forest_.edge);
   }
 
@@ -183,10 +187,10 @@ class Run {
     if (ranks_.rank() == 0) ranks_.barrier();
     summary_.was_finished = store_->finished();
     if (summary_.was_finished && options_.single && !store_->holds(options_.single->string())) {
-      throw Error(ErrorCode::usage,
-                  folder_.string() + " holds this forest, finished, without " +
-                      options_.single->string(),
-                  "--restart starts over.");
+      throw Error(
+          ErrorCode::usage,
+          folder_.string() + " holds this forest, finished, without " + options_.single->string(),
+          "--restart starts over.");
     }
     return !summary_.was_finished;
   }
@@ -349,10 +353,17 @@ ForestSummary run_forest(const Scene& scene, const ForestOptions& options, Devic
   check(options);
   check_output_folder(folder);
   const ThreadLimit limit(device);
-  if (options.merge == Merge::none) {
-    return merge_none(scene, options, device, ranks, folder, progress);
+  const bool is_new = !std::filesystem::exists(folder);
+  try {
+    if (options.merge == Merge::none) {
+      return merge_none(scene, options, device, ranks, folder, progress);
+    }
+    return Run(scene, options, device, ranks, folder, progress).canopy();
+  } catch (const Error&) {
+    std::error_code not_empty;
+    if (is_new) std::filesystem::remove(folder, not_empty);
+    throw;
   }
-  return Run(scene, options, device, ranks, folder, progress).canopy();
 }
 
 }  // namespace leafhull

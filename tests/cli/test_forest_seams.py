@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """The surface is the same however the scene is cut, and has no crack where tiles meet."""
 
+import collections
 import json
 import random
 
 from command import ASH
-from forests import COARSE, ForestTest, as_sets, read_glb, read_ply, tiles_of
+from forests import COARSE, ForestTest, unordered, read_glb, read_ply, tiles_of
 
 
 class Seams(ForestTest):
@@ -32,10 +33,10 @@ class Seams(ForestTest):
         return surface
 
     def same_for_all_tiles(self, *flags):
-        whole = as_sets(self.welded(512, *flags))
+        whole = unordered(self.welded(512, *flags))
         self.assertEqual(len(tiles_of(self.out / "forest")), 1, "512 voxels hold all")
         for tile in (32, 64):
-            found = as_sets(self.welded(tile, *flags))
+            found = unordered(self.welded(tile, *flags))
             self.assertGreater(len(tiles_of(self.out / "forest")), 8)
             self.assertTrue(found[0] == whole[0], "the same vertices, bit for bit")
             self.assertTrue(found[1] == whole[1], "the same triangles")
@@ -54,21 +55,19 @@ class Seams(ForestTest):
         every = self.welded(32, *flags, "--min-component", "0")
         few = self.welded(32, *flags, "--min-component", "0.3")
         self.assertLess(len(few.triangles), len(every.triangles))
-        self.assertLess(as_sets(few)[1], as_sets(every)[1], "what stays is as it was")
-        self.assertEqual(
-            as_sets(self.welded(512, *flags, "--min-component", "0.3")), as_sets(few)
-        )
+        self.assertTrue(unordered(few)[1] < unordered(every)[1], "what stays is as it was")
+        whole = self.welded(512, *flags, "--min-component", "0.3")
+        self.assertTrue(unordered(whole) == unordered(few))
 
     def test_ply_and_glb_are_one_mesh(self):
         self.assertEqual(self.welded(32), self.welded(32, name="all.ply"))
 
     def test_tiles_have_the_bits_of_the_welded_mesh(self):
-        vertices, triangles = as_sets(self.welded(32))
+        vertices, triangles = unordered(self.welded(32))
         tiles = tiles_of(self.out / "forest")
-        seen = [triangle for tile in tiles.values() for triangle in as_sets(tile)[1]]
-        self.assertEqual(len(seen), len(triangles), "every triangle in one tile")
-        self.assertEqual(set(seen), triangles)
-        self.assertEqual({v for tile in tiles.values() for v in tile.vertices}, vertices)
+        seen = sum((unordered(tile)[1] for tile in tiles.values()), collections.Counter())
+        self.assertTrue(seen == triangles, "every triangle in one tile")
+        self.assertEqual({v for tile in tiles.values() for v in tile.vertices}, set(vertices))
 
 
 class Alone(ForestTest):
@@ -86,7 +85,7 @@ class Alone(ForestTest):
             ("oak.glb", 0.15, "--style", "thin", "--threshold", "0.5"),
             ("oak.glb", 0.15, "--coverage", "0.8", "--min-component", "0.05"),
             ("oak.glb", 0.15, "--threshold-percent", "60", "--method", "isotropic"),
-            ("big.glb", 0.2),
+            ("big.glb", 1.5),
         ):
             flags = ("--voxel-size", voxel, *flags)
             mesh, threshold = self.extract(self.folder / tree, *flags)

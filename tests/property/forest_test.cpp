@@ -130,10 +130,9 @@ ForestLevel level_of(const Scene& scene, int number = 0) {
   const std::vector<LeafSet> models{crown(1, 900, 3), crown(2, 500, 2)};
   const std::vector<ModelUse> uses = model_uses(scene);
   const ForestLevel finest = prepare_level(0, models, uses, options(), 0.2, nullptr, device());
-  ForestLevel level =
-      number == 0 ? finest : prepare_level(number, models, uses, options(), 0.2, &finest, device());
-  level.least = 0;  // small pieces over seams are known once all tiles are
-  return level;
+  // Its `least` stays 0: small pieces over seams are known once all tiles are.
+  return number == 0 ? finest
+                     : prepare_level(number, models, uses, options(), 0.2, &finest, device());
 }
 
 void expect_same(const Surface& a, const Surface& b) {
