@@ -109,7 +109,8 @@ void run(const std::vector<std::string>& command) {
   refuse_extras(app.get_subcommand(std::string(verb->name))->remaining(), *verb);
   if ((verb->takes_tree && arguments.tree.empty()) ||
       (verb->takes_trees && arguments.trees.empty())) {
-    throw Error(ErrorCode::usage, "no " + std::string(verb->operand) + " is given",
+    const std::string_view operand = verb->operand.substr(0, verb->operand.find("..."));
+    throw Error(ErrorCode::usage, "no " + std::string(operand) + " is given",
                 "Give " + std::string(verb->operand_help) + ": leafhull " +
                     std::string(verb->name) + " " + std::string(verb->operand_example) + ".");
   }

@@ -26,8 +26,8 @@ WideVec cross(WideVec a, WideVec b) {
 /// From the origin of the global lattice.
 WideVec exact(Vec3f p, const Lattice& lattice) {
   const auto at = [](std::int64_t anchor, float v) {
-    const auto units = static_cast<std::int64_t>(static_cast<double>(v) * 0x1p13);
-    return static_cast<Wide>(static_cast<ExactVolume>((anchor << 13) + units));
+    const auto units = static_cast<std::int64_t>(static_cast<double>(v) * 0x1p14);
+    return static_cast<Wide>(static_cast<ExactVolume>((anchor << 14) + units));
   };
   return {at(lattice.anchor.x, p.x), at(lattice.anchor.y, p.y), at(lattice.anchor.z, p.z)};
 }

@@ -10,9 +10,9 @@
 
 namespace leafhull {
 
-/// Twelve times the volume of each piece of surface by its lowest point, ascending, in 1 / 2^39
+/// Twelve times the volume of each piece of surface by its lowest point, ascending, in 1 / 2^42
 /// voxels, or a part's share of it: parts of a closed piece add up to its volume, in any order, on
-/// lattices with any anchors. Points are multiples of 2^-13 voxels, as mesh_bricks gives those of a
+/// lattices with any anchors. Points are multiples of 2^-14 voxels, as mesh_bricks gives those of a
 /// part; others are rounded.
 std::vector<std::pair<std::uint32_t, ExactVolume>> exact_volumes(
     const Polygons& polygons, const Lattice& lattice, const std::vector<std::uint32_t>& root);

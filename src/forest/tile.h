@@ -19,7 +19,7 @@ struct TileId {
   TileId parent() const { return {level + 1, {at.x >> 1, at.y >> 1, at.z >> 1}}; }
 };
 
-/// A volume in 1 / 2^39 voxels, times twelve: exact, so that parts add up in any order.
+/// A volume in 1 / 2^42 voxels, times twelve: exact, so that parts add up in any order.
 __extension__ typedef __int128 ExactVolume;  // NOLINT(modernize-use-using)
 
 /// A vertex that two tiles may share: the cell of the global lattice that holds it, and which of

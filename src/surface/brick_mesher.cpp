@@ -108,11 +108,11 @@ constexpr auto kCrossings = [] {
   return crossings;
 }();
 
-/// Of a part, fractions of a cell are multiples of 2^-13, so that sums with the number of a cell
+/// Of a part, fractions of a cell are multiples of 2^-14, so that sums with the number of a cell
 /// are exact and a point does not depend on the anchor.
 float rounded(float fraction) {
-  constexpr float kFractions = 1 << 13;
-  return std::min(std::floor(fraction * kFractions), kFractions - 1) / kFractions;
+  constexpr float kFractions = 1 << 14;
+  return std::min(std::round(fraction * kFractions), kFractions - 1) / kFractions;
 }
 
 /// low + fraction, kept below low + 1.

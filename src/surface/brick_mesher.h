@@ -25,7 +25,7 @@ struct OwnedPolygons {
 
 /// The part of mesh_bricks(field) that the cells of `own`, whole bricks, hold: the points in them,
 /// the faces whose lowest cell is among them, and after the own points those of upper neighbours
-/// that these faces have, ascending by cell. Points are multiples of 2^-13 voxels. The field must
+/// that these faces have, ascending by cell. Points are multiples of 2^-14 voxels. The field must
 /// be known one brick beyond `own`. A point and a face are the same from whatever part and anchor
 /// they are seen.
 OwnedPolygons mesh_bricks(const Field& field, const SampleBox& own);

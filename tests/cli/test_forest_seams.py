@@ -102,7 +102,9 @@ class Alone(ForestTest):
                         self.assertAlmostEqual(found / threshold, 1, delta=1e-4)
                         continue
                     self.assertEqual(found, threshold)
-                    self.assert_same_shape(read_glb(single), mesh, voxel / 1000)
+                    # Vertices set out 2^-14 voxels apart, Newton's way ends within 5e-4 voxels of
+                    # N = T, perhaps a step later, and places round to a thousandth of a voxel.
+                    self.assert_same_shape(read_glb(single), mesh, 3e-3 * voxel)
 
     def assert_same_shape(self, found, expected, tolerance):
         self.assertEqual(len(found.vertices), len(expected.vertices))
