@@ -240,7 +240,7 @@ TileRecord Store::put(const TileSurface& surface, TileRecord record) {
 FileRecord put_file(const Store& store, const std::string& name,
                     const std::function<void(std::ostream&)>& writer) {
   const ForestFolder folder(store.folder(), store.writer());
-  const FileRecord record = folder.write(store.folder() / name, writer);
+  FileRecord record = folder.write(store.folder() / name, writer);
   sync_folder(store.folder());
   return record;
 }
