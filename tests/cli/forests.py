@@ -11,7 +11,7 @@ from command import CommandTest
 
 MPIRUN = os.environ.get("MPIRUN", "")
 UNDER_MPIRUN = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
-#: A shape with few parts, whatever the voxels: no control, no snapping tells tiles apart.
+#: Trees are about 15 voxels wide.
 COARSE = ("--voxel-size", "0.3")
 
 Surface = collections.namedtuple("Surface", "vertices triangles")

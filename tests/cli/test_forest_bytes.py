@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The same scene and options give the same bytes, whoever computes which tile when."""
 
+import json
 import os
 import subprocess
 import unittest
@@ -86,7 +87,10 @@ class Parts(ForestTest):
                 self.assertAlmostEqual(todo, every * (3 - done) / 3, delta=1)
                 result = self.part(number, scope, *flags)
                 self.assertEqual("still to do" in result.stderr, done < 2, result.stderr)
-            self.forest(self.scene, scope, *flags, "--finish")
+            report = self.folder / "report.json"
+            self.forest(self.scene, scope, *flags, "--finish", "--report", report)
+            threshold = json.loads(report.read_text())["levels"][0]["threshold"]
+            self.assertEqual(threshold is None, scope == "scene", "only the parts know the scene's")
             self.assert_same_files(self.out / scope, files_in(self.out / f"{scope}-whole"))
 
     def test_at_once(self):

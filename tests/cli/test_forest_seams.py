@@ -24,8 +24,9 @@ class Seams(ForestTest):
 
     def welded(self, tile, *flags, name="all.glb"):
         single = self.folder / name
+        flags = flags if "--voxel-size" in flags else (*COARSE, *flags)
         self.forest(
-            self.scene, "forest", *COARSE, "--restart", "--tile", tile, "--single", single, *flags
+            self.scene, "forest", "--restart", "--tile", tile, "--single", single, *flags
         )
         surface = (read_ply if name.endswith(".ply") else read_glb)(single)
         self.assertGreater(len(surface.triangles), 2000)
@@ -46,6 +47,12 @@ class Seams(ForestTest):
 
     def test_thin(self):
         self.same_for_all_tiles("--style", "thin", "--threshold", "0.5")
+
+    def test_kernels_that_reach_far_over_seams(self):
+        """Farther than the bricks around a tile."""
+        far = ("--voxel-size", "0.2", "--radius-max", "16")
+        self.same_for_all_tiles(*far, "--method", "isotropic", "--threshold-percent", "60")
+        self.same_for_all_tiles(*far, "--control-scope", "scene", "--threshold", "0.3")
 
     def test_statistics_of_the_scene(self):
         self.same_for_all_tiles("--control-scope", "scene", "--style", "thin", "--threshold", "0.5")
