@@ -109,19 +109,19 @@ class Alone(ForestTest):
                         self.assertAlmostEqual(found / threshold, 1, delta=1e-4)
                         continue
                     self.assertEqual(found, threshold)
-                    # Vertices set out 2^-14 voxels apart, Newton's way ends within 5e-4 voxels of
-                    # N = T, perhaps a step later, and places round to a thousandth of a voxel.
-                    self.assert_same_shape(read_glb(single), mesh, 3e-3 * voxel)
+                    self.assert_same_shape(read_glb(single), mesh, voxel)
 
-    def assert_same_shape(self, found, expected, tolerance):
+    def assert_same_shape(self, found, expected, voxel):
+        """Vertices set out 2^-14 voxels apart. Nearly all end within a thousandth of a voxel, to which
+        tiles round; where the surface is flat in N, Newton's way from there may end a little aside."""
         self.assertEqual(len(found.vertices), len(expected.vertices))
         self.assertEqual(len(found.triangles), len(expected.triangles))
         cells = {}
         for vertex in expected.vertices:
-            cells.setdefault(tuple(round(c / (4 * tolerance)) for c in vertex[:3]), []).append(vertex)
-        steps = (-1, 0, 1)
+            cells.setdefault(tuple(round(c / (voxel / 16)) for c in vertex[:3]), []).append(vertex)
+        steps, aside = (-1, 0, 1), 0
         for vertex in found.vertices:
-            x, y, z = (round(c / (4 * tolerance)) for c in vertex[:3])
+            x, y, z = (round(c / (voxel / 16)) for c in vertex[:3])
             near = [
                 other
                 for i in steps for j in steps for k in steps
@@ -131,4 +131,6 @@ class Alone(ForestTest):
                 (max(abs(a - b) for a, b in zip(vertex[:3], other[:3])) for other in near),
                 default=1e9,
             )
-            self.assertLessEqual(apart, tolerance, vertex)
+            self.assertLessEqual(apart, 0.01 * voxel, vertex)
+            aside += apart > 0.001 * voxel
+        self.assertLess(aside, 0.01 * len(found.vertices))
