@@ -11,7 +11,7 @@ namespace leafhull {
 namespace {
 
 /// Modulo 2^128: sums and products may pass over it on the way, the volume does not.
-__extension__ typedef unsigned __int128 Wide;
+__extension__ typedef unsigned __int128 Wide;  // NOLINT(modernize-use-using)
 
 struct WideVec {
   Wide x, y, z;
