@@ -290,6 +290,7 @@ class Run {
     const std::vector<TileId> tiles = forest_.tiles();
     const FinishedForest finished =
         put_in_place(*store_, tiles, forest_.edge, small, options_.single);
+    if (finished.tiles.empty()) refuse_empty();  // every piece was small
     std::vector<double> errors;
     for (const ForestLevel& level : forest_.levels) errors.push_back(level.error);
     const std::string tileset = tileset_json(finished.tiles, errors);
