@@ -126,15 +126,13 @@ float within_cell(float low, float fraction) {
 enum class Role { own, upper, beside };
 
 Role role_of(const GridCoord& brick, const SampleBox& own) {
-  bool upper = false;
-  const auto within = [&](int at, int low, int high) {
-    upper = upper || at == high;
-    return at >= low && at <= high;
-  };
-  const bool near = within(brick.x(), own.low.x, own.high.x) &
-                    within(brick.y(), own.low.y, own.high.y) &
-                    within(brick.z(), own.low.z, own.high.z);
-  return !near ? Role::beside : upper ? Role::upper : Role::own;
+  const auto within = [](int at, int low, int high) { return at >= low && at <= high; };
+  if (!within(brick.x(), own.low.x, own.high.x) || !within(brick.y(), own.low.y, own.high.y) ||
+      !within(brick.z(), own.low.z, own.high.z))
+    return Role::beside;
+  const bool upper =
+      brick.x() == own.high.x || brick.y() == own.high.y || brick.z() == own.high.z;
+  return upper ? Role::upper : Role::own;
 }
 
 class Mesher {
