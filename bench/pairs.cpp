@@ -114,8 +114,8 @@ std::uint64_t pairs_evaluated(std::span<const Kernel> kernels, const LeafSet& le
     points.push_back(set.lattice().local(leaf.position));
   }
   std::uint64_t pairs = 0;
-  find_kernels_near(set, std::span<const leafhull::Vec3d>(points), Within::point,
-                    [&](const PointBatch& batch) { pairs += kChunkPoints * batch.kernels.size(); });
+  find_kernels_near(set, std::span<const leafhull::Vec3d>(points), Within::point, 8,
+                    [&](const PointBatch& batch) { pairs += 8 * batch.kernels.size(); });
   return pairs;
 }
 

@@ -6,7 +6,9 @@
 // (LANES = 1). Global size: CHUNK_POINTS / LANES times the number of chunks, or more.
 #include "density.clh"
 
-#define CHUNK_POINTS 8
+#ifndef CHUNK_POINTS
+#define CHUNK_POINTS 8  // or 16, the lanes of the widest vectors
+#endif
 #ifndef LANES
 #define LANES CHUNK_POINTS
 #endif
@@ -16,6 +18,12 @@ typedef float8 real;
 typedef int8 truth;
 #define LOAD(p) vload8(get_global_id(0), p)
 #define STORE(v, p) vstore8(v, get_global_id(0), p)
+#define ANY(c) any(c)
+#elif LANES == 16
+typedef float16 real;
+typedef int16 truth;
+#define LOAD(p) vload16(get_global_id(0), p)
+#define STORE(v, p) vstore16(v, get_global_id(0), p)
 #define ANY(c) any(c)
 #else
 typedef float real;
@@ -51,6 +59,15 @@ typedef struct {
   Real3 gradient;
 } Sample;
 
+// w^(k - 1) where w > 0, and 0 where w = 0.
+#if FALLOFF == 1
+#define SLOPE(w) select(REAL(0.0f), REAL(1.0f), (w) > REAL(0.0f))
+#elif FALLOFF == 2
+#define SLOPE(w) (w)
+#else
+#define SLOPE(w) ((w) * (w))
+#endif
+
 static Sample density_at(global const Kernel* kernels, global const uint* list,
                          global const Chunk* chunk, Real3 p) {
   const int4 origin = {chunk->origin[0], chunk->origin[1], chunk->origin[2], 0};
@@ -65,18 +82,13 @@ static Sample density_at(global const Kernel* kernels, global const uint* list,
     const real n = k->zz * dz;
     const real w = fmax(fma(-u, u, fma(-n, n, fma(-v, v, REAL(1.0f)))), REAL(0.0f));
     s.density = ADD_POWER(s.density, w);
-    // grad D = -2 k w^(k-1) U^T (u, v, n); w = 0 leaves nothing.
-#if FALLOFF == 1
-    const real slope = select(REAL(0.0f), REAL(-2.0f), w > REAL(0.0f));
-#elif FALLOFF == 2
-    const real slope = -4.0f * w;
-#else
-    const real slope = -6.0f * w * w;
-#endif
+    // grad D = -2 k w^(k-1) U^T (u, v, n), its constant factor last; w = 0 leaves nothing.
+    const real slope = SLOPE(w);
     s.gradient.x = fma(slope, k->xx * u, s.gradient.x);
     s.gradient.y = fma(slope, fma(REAL(k->xy), u, k->yy * v), s.gradient.y);
     s.gradient.z = fma(slope, fma(REAL(k->xz), u, fma(REAL(k->yz), v, k->zz * n)), s.gradient.z);
   }
+  s.gradient = scaled(s.gradient, REAL(-2.0f * FALLOFF));
   return s;
 }
 

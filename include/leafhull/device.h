@@ -31,9 +31,10 @@ struct DeviceOptions {
 /// Empty where no platform is installed.
 std::vector<DeviceInfo> list_devices(const DeviceOptions& options);
 
-/// An opened OpenCL device with leafhull's programs, for one thread at a time: its work and TBB's
-/// never overlap. `threads` reaches PoCL through the environment and counts only before the
-/// process's first OpenCL call.
+/// An opened OpenCL device with leafhull's programs. Threads that share one take turns, each
+/// waiting for its own work, so that within a thread the device's work and TBB's never overlap.
+/// `threads` reaches PoCL through the environment and counts only before the process's first OpenCL
+/// call.
 class Device {
  public:
   /// @throws Error device: none, no such one, or one that cannot be opened; usage: no such variant.
@@ -45,6 +46,8 @@ class Device {
   const DeviceInfo& info() const;
   /// The bound on host threads, 0: all cores.
   int threads() const;
+  /// Whether its work and TBB's together keep to that bound.
+  bool may_overlap() const;
 
   /// The device room's own side of it.
   struct Engine;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 namespace leafhull {
@@ -62,8 +63,8 @@ struct Box {
   Vec3d high{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
 
   void include(Vec3d p) {
-    low = {std::fmin(low.x, p.x), std::fmin(low.y, p.y), std::fmin(low.z, p.z)};
-    high = {std::fmax(high.x, p.x), std::fmax(high.y, p.y), std::fmax(high.z, p.z)};
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
   }
   bool empty() const { return !(low.x <= high.x); }
   Vec3d size() const { return empty() ? Vec3d{} : high - low; }

@@ -18,11 +18,14 @@ namespace {
 
 /// Points whose kernels are gathered together, about.
 constexpr std::size_t kClusterPoints = 256;
+constexpr std::size_t kLeastChunk = 8;
 /// What a batch should hold: 2 MiB of ranks, and no more chunks than one launch takes.
 constexpr std::size_t kBatchEntries = std::size_t{1} << 19;
-constexpr std::size_t kBatchClusters = (std::size_t{1} << 15) / (kClusterPoints / kChunkPoints);
+constexpr std::size_t kBatchClusters = (std::size_t{1} << 15) / (kClusterPoints / kLeastChunk);
 
-std::size_t chunks_of(std::size_t points) { return (points + kChunkPoints - 1) / kChunkPoints; }
+std::size_t chunks_of(std::size_t points, std::size_t chunk_points) {
+  return (points + chunk_points - 1) / chunk_points;
+}
 
 /// Consecutive points in one frame: points come in an order that keeps neighbours together.
 struct Run {
@@ -116,6 +119,7 @@ class Search {
                   PointBatch& batch, std::vector<std::uint32_t>& ranks) {
     origin_ = cluster.runs.front().frame;
     batch_ = &batch;
+    chunk_points_ = batch.chunk_points;
     chunk_ = chunk;
     ranks_ = &ranks;
     ranks.clear();
@@ -132,12 +136,12 @@ class Search {
  private:
   void halve(std::span<Member> members) {
     const LocalBox box = box_of(members);
-    if (members.size() <= kChunkPoints) return add_chunk(members, reach_of(box, within_));
+    if (members.size() <= chunk_points_) return add_chunk(members, reach_of(box, within_));
     const Vec3f side = box.high - box.low;
     const auto axis = side.x >= side.y && side.x >= side.z ? &Vec3f::x
                       : side.y >= side.z                   ? &Vec3f::y
                                                            : &Vec3f::z;
-    const std::size_t half = (chunks_of(members.size()) + 1) / 2 * kChunkPoints;
+    const std::size_t half = (chunks_of(members.size(), chunk_points_) + 1) / 2 * chunk_points_;
     std::nth_element(
         members.begin(), members.begin() + static_cast<std::ptrdiff_t>(half), members.end(),
         [axis](const Member& a, const Member& b) { return a.offset.*axis < b.offset.*axis; });
@@ -149,9 +153,9 @@ class Search {
     const auto first = static_cast<std::uint32_t>(ranks_->size());
     near_.append_reaching(reach, *ranks_);
     batch_->chunks[chunk_] = {origin_, first, static_cast<std::uint32_t>(ranks_->size())};
-    for (std::size_t lane = 0; lane < kChunkPoints; ++lane) {
+    for (std::size_t lane = 0; lane < chunk_points_; ++lane) {
       const Member& m = members[std::min(lane, members.size() - 1)];
-      const std::size_t at = chunk_ * kChunkPoints + lane;
+      const std::size_t at = chunk_ * chunk_points_ + lane;
       batch_->index[at] = m.point;
       batch_->x[at] = m.offset.x, batch_->y[at] = m.offset.y, batch_->z[at] = m.offset.z;
     }
@@ -163,6 +167,7 @@ class Search {
   std::vector<Member> members_;
   Coord origin_;
   PointBatch* batch_ = nullptr;
+  std::size_t chunk_points_ = 0;
   std::vector<std::uint32_t>* ranks_ = nullptr;
   std::size_t chunk_ = 0;
 };
@@ -173,9 +178,11 @@ void search(std::span<const Vec3<T>> points, std::span<const Cluster> clusters,
             tbb::enumerable_thread_specific<Search>& searches,
             std::vector<std::vector<std::uint32_t>>& lists, PointBatch& batch) {
   std::vector<std::size_t> first_chunk{0};
-  for (const Cluster& c : clusters) first_chunk.push_back(first_chunk.back() + chunks_of(c.points));
+  for (const Cluster& c : clusters) {
+    first_chunk.push_back(first_chunk.back() + chunks_of(c.points, batch.chunk_points));
+  }
   batch.chunks.resize(first_chunk.back());
-  batch.index.resize(first_chunk.back() * kChunkPoints);
+  batch.index.resize(first_chunk.back() * batch.chunk_points);
   for (auto* v : {&batch.x, &batch.y, &batch.z}) v->resize(batch.index.size());
 
   lists.resize(std::max(clusters.size(), lists.size()));
@@ -202,7 +209,7 @@ void search(std::span<const Vec3<T>> points, std::span<const Cluster> clusters,
 
 template <class T>
 void find_near(const KernelSet& set, std::span<const Vec3<T>> points, Within within,
-               const std::function<void(PointBatch&)>& visit) {
+               std::size_t chunk_points, const std::function<void(PointBatch&)>& visit) {
   const std::vector<Run> runs = sorted_runs(points);
   const std::vector<Cluster> clusters = in_clusters(runs);
   if (clusters.empty()) return;
@@ -211,9 +218,10 @@ void find_near(const KernelSet& set, std::span<const Vec3<T>> points, Within wit
   // Should every kernel reach every point: at most 64 MiB of ranks, or one cluster.
   constexpr std::size_t kMostEntries = std::size_t{1} << 24;
   std::size_t group = std::clamp<std::size_t>(
-      kMostEntries / (chunks_of(kClusterPoints) * set.kernels().size() + 1), 1, 64);
+      kMostEntries / (chunks_of(kClusterPoints, chunk_points) * set.kernels().size() + 1), 1, 64);
   std::vector<std::vector<std::uint32_t>> lists;
   PointBatch batch;
+  batch.chunk_points = chunk_points;
   for (std::size_t begin = 0, end = 0; begin < clusters.size(); begin = end) {
     end = std::min(begin + group, clusters.size());
     search(points, std::span(clusters).subspan(begin, end - begin), searches, lists, batch);
@@ -226,13 +234,13 @@ void find_near(const KernelSet& set, std::span<const Vec3<T>> points, Within wit
 }  // namespace
 
 void find_kernels_near(const KernelSet& kernels, std::span<const Vec3d> points, Within within,
-                       const std::function<void(PointBatch&)>& visit) {
-  find_near(kernels, points, within, visit);
+                       std::size_t chunk_points, const std::function<void(PointBatch&)>& visit) {
+  find_near(kernels, points, within, chunk_points, visit);
 }
 
 void find_kernels_near(const KernelSet& kernels, std::span<const Vec3f> points, Within within,
-                       const std::function<void(PointBatch&)>& visit) {
-  find_near(kernels, points, within, visit);
+                       std::size_t chunk_points, const std::function<void(PointBatch&)>& visit) {
+  find_near(kernels, points, within, chunk_points, visit);
 }
 
 }  // namespace leafhull

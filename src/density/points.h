@@ -10,7 +10,6 @@
 
 namespace leafhull {
 
-inline constexpr std::size_t kChunkPoints = 8;
 /// Positions are counted from the origin of a point's frame, a block of this many voxels, so that N
 /// there depends on the point alone.
 inline constexpr int kFrameEdge = 16;
@@ -22,8 +21,9 @@ struct PointChunk {
 };
 static_assert(sizeof(PointChunk) == 20);
 
-/// Points in chunks, kChunkPoints to each; a chunk that is not full repeats a point.
+/// Points in chunks; a chunk that is not full repeats a point.
 struct PointBatch {
+  std::size_t chunk_points = 0;  ///< to each
   std::vector<PointChunk> chunks;
   std::vector<std::uint32_t> kernels;  ///< ascending in each chunk
   std::vector<std::uint32_t> index;    ///< into the points asked about
@@ -35,9 +35,10 @@ enum class Within { point, cell };
 
 /// Finds the kernels near each of `points` (voxels from the anchor) and hands them over, in batches
 /// of bounded size. The device works only while no search runs.
+/// @param chunk_points at least 8.
 void find_kernels_near(const KernelSet& kernels, std::span<const Vec3d> points, Within within,
-                       const std::function<void(PointBatch&)>& visit);
+                       std::size_t chunk_points, const std::function<void(PointBatch&)>& visit);
 void find_kernels_near(const KernelSet& kernels, std::span<const Vec3f> points, Within within,
-                       const std::function<void(PointBatch&)>& visit);
+                       std::size_t chunk_points, const std::function<void(PointBatch&)>& visit);
 
 }  // namespace leafhull

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <optional>
+#include <thread>
 
 #include "device/engine.h"
 #include "device/evaluator.h"
@@ -197,6 +198,7 @@ Device::Device(const DeviceOptions& options) : engine_(std::make_unique<Engine>(
   engine_->threads = options.threads;
   try {
     engine_->device = device.device;
+    engine_->float_lanes = device.device.getInfo<CL_DEVICE_NATIVE_VECTOR_WIDTH_FLOAT>();
     engine_->context = cl::Context(device.device);
     engine_->queue = cl::CommandQueue(engine_->context, device.device);
   } catch (const cl::Error& error) {
@@ -214,6 +216,12 @@ Device& Device::operator=(Device&&) noexcept = default;
 const DeviceInfo& Device::info() const { return engine_->info; }
 
 int Device::threads() const { return engine_->threads; }
+
+bool Device::may_overlap() const {
+  const int threads = engine_->threads;
+  return threads == 0 || !engine_->shares_memory() ||
+         static_cast<unsigned>(threads) >= std::thread::hardware_concurrency();
+}
 
 std::future<Device> open_device(const DeviceOptions& options, int falloff) {
   // Here, since no thread may write the environment while another reads it.

@@ -20,8 +20,10 @@ cl::Program::Sources sources(bool vector) {
   return {std::string(density), std::string(kernel_source_points)};
 }
 
-std::string build_options(bool vector, int falloff) {
-  return "-cl-std=CL1.2 -DFALLOFF=" + std::to_string(falloff) + (vector ? "" : " -DLANES=1");
+std::string build_options(const Device::Engine& engine, int falloff) {
+  return "-cl-std=CL1.2 -DFALLOFF=" + std::to_string(falloff) +
+         " -DCHUNK_POINTS=" + std::to_string(engine.chunk_points()) +
+         (engine.vector() ? "" : " -DLANES=1");
 }
 
 }  // namespace
@@ -60,7 +62,7 @@ cl::Kernel Device::Engine::kernel(const char* name, const std::string& program,
 }
 
 cl::Kernel Device::Engine::kernel(const char* name, int falloff) {
-  return kernel(name, "density", sources(vector()), build_options(vector(), falloff));
+  return kernel(name, "density", sources(vector()), build_options(*this, falloff));
 }
 
 }  // namespace leafhull

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <mutex>
 #include <span>
 #include <string>
 #include <string_view>
@@ -21,14 +22,20 @@ std::string trimmed(std::string text);
 /// An opened device: its context, its queue and the programs built so far.
 struct Device::Engine {
   DeviceInfo info;
-  int threads = 0;  ///< 0: all cores
+  int threads = 0;           ///< 0: all cores
+  unsigned float_lanes = 0;  ///< of the device's own vectors
   cl::Device device;
   cl::Context context;
   cl::CommandQueue queue;
   std::map<std::pair<std::string, std::string>, cl::Program> programs;  ///< by name and options
+  std::mutex busy;                                                      ///< held by run()
 
   /// True for the variant with explicit vectors.
   bool vector() const { return info.variant == "vector"; }
+
+  /// Points that share a list of kernels (points.cl): the lanes of its widest vectors. Wider ones
+  /// would cost more than they save: a list grows with its points.
+  std::size_t chunk_points() const { return vector() && float_lanes >= 16 ? 16 : 8; }
 
   /// Whether the device works in the host's memory, so that buffers need no copies.
   bool shares_memory() const { return info.type == "CPU"; }
@@ -45,9 +52,10 @@ struct Device::Engine {
   /// @throws Error device, as build.
   cl::Kernel kernel(const char* name, int falloff);
 
-  /// Runs `work`, OpenCL's exceptions told in our words.
+  /// Runs `work`, for one thread at a time, OpenCL's exceptions told in our words.
   template <class Work>
   auto run(const char* what, Work&& work) {
+    const std::lock_guard alone(busy);
     try {
       return work();
     } catch (const cl::Error& error) {

@@ -25,7 +25,7 @@ struct Evaluator::Impl {
 
   void launch_points(const cl::Kernel& kernel, std::size_t chunks) {
     const std::size_t group = engine.vector() ? 1 : kPointsPerGroup;
-    const std::size_t items = engine.vector() ? chunks : chunks * kChunkPoints;
+    const std::size_t items = engine.vector() ? chunks : chunks * engine.chunk_points();
     engine.queue.enqueueNDRangeKernel(kernel, cl::NullRange,
                                       cl::NDRange((items + group - 1) / group * group),
                                       cl::NDRange(group));
@@ -41,6 +41,8 @@ Evaluator::Evaluator(Device& device, const KernelSet& kernels, int falloff)
 
 Evaluator::~Evaluator() = default;
 Evaluator::Evaluator(Evaluator&&) noexcept = default;
+
+std::size_t Evaluator::chunk_points() const { return impl_->engine.chunk_points(); }
 
 std::uint64_t Evaluator::sample(const BrickList& bricks, std::span<float> samples) {
   Impl& d = *impl_;
@@ -134,8 +136,9 @@ void prepare(Device& device, int falloff) {
   nothing.sample(brick, samples);
   PointBatch points;
   points.chunks.resize(1);
-  points.index.resize(kChunkPoints);
-  for (auto* v : {&points.x, &points.y, &points.z}) v->resize(kChunkPoints);
+  points.chunk_points = nothing.chunk_points();
+  points.index.resize(points.chunk_points);
+  for (auto* v : {&points.x, &points.y, &points.z}) v->resize(points.chunk_points);
   nothing.density(points);
   nothing.snap(points, 1, 1);
 }

@@ -26,6 +26,9 @@ class Evaluator {
   /// kernel-sample pairs that were evaluated.
   std::uint64_t sample(const BrickList& bricks, std::span<float> samples);
 
+  /// Points to a chunk of the batches below.
+  std::size_t chunk_points() const;
+
   /// N at the points of a batch, in the order of batch.index.
   std::vector<float> density(const PointBatch& batch);
 

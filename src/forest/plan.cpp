@@ -130,13 +130,13 @@ int tile_edge(const Scene& scene, std::span<const ForestLevel> levels, std::opti
     const double samples = std::pow(edge + 2.0 * kBrickEdge, 3) * kShareOfSamples;
     // Kernels in the brick around the tile as well.
     const double around = std::pow(1 + 2.0 * kBrickEdge / edge, 2);
-    needed = heaviest * around * kBytesPerKernel + samples * kBytesPerSample;
+    needed = kTilesAtOnce * (heaviest * around * kBytesPerKernel + samples * kBytesPerSample);
     if (needed <= left) return edge;
   }
   constexpr double kGiB = 1 << 30;
   throw Error(
       ErrorCode::usage,
-      "the densest tile needs about " +
+      "two of the densest tiles need about " +
           short_number((needed + static_cast<double>(memory) - left) / kGiB) +
           " GiB with the models, and --memory is " +
           short_number(static_cast<double>(memory) / kGiB) + " GiB",

@@ -15,6 +15,8 @@ namespace leafhull {
 
 /// Cells along a tile where nothing else is asked for.
 inline constexpr int kTileEdge = 128;
+/// Tiles that are in memory together at most.
+inline constexpr int kTilesAtOnce = 2;
 
 /// The tiles of a level and the trees that reach each.
 class TilePlan {

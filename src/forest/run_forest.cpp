@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // A forest from its scene to the folder that holds it.
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <chrono>
 #include <future>
+#include <mutex>
 #include <optional>
+#include <semaphore>
 #include <string>
 #include <utility>
 
@@ -101,6 +105,20 @@ struct Forest {
     const auto l = static_cast<std::size_t>(work.level);
     return compute_tile(scene, levels[l], {id(work), edge, plans[l].trees(work.tile)}, device);
   }
+};
+
+using Computing = std::counting_semaphore<kTilesAtOnce>;
+
+/// One of the tiles that may be computed at once.
+class Permit {
+ public:
+  explicit Permit(Computing& computing) : computing_(computing) { computing_.acquire(); }
+  ~Permit() { computing_.release(); }
+  Permit(const Permit&) = delete;
+  Permit& operator=(const Permit&) = delete;
+
+ private:
+  Computing& computing_;
 };
 
 class Run {
@@ -229,29 +247,52 @@ class Run {
     if (ranks_.rank() == 0) ranks_.add(Sum::tiles, summary_.resumed);
     ranks_.reset();
     tell("tiles", summary_.resumed, all_);
-    std::future<std::uint64_t> writing;  // of the tile before, while the next is computed
-    const auto wait = [&] {
-      if (!writing.valid()) return;
-      leaf_vertices_ = ranks_.add(Sum::leaf_vertices, writing.get());
-      tell("tiles", ranks_.add(Sum::tiles, 1), all_);
+    // One tile is written while others are computed: two at once, as some steps take one thread
+    // and would leave cores idle.
+    Computing computing(device_.may_overlap() ? kTilesAtOnce : 1);
+    std::atomic<bool> failed = false;
+    const auto take_tiles = [&] {
+      try {
+        for (auto i = next_of(work); i && !failed; i = next_of(work)) {
+          make_tile(work[*i], computing);
+        }
+      } catch (...) {
+        failed = true;
+        throw;
+      }
     };
-    for (std::uint64_t i = ranks_.next(); i < work.size(); i = ranks_.next()) {
+    std::array<std::future<void>, kTilesAtOnce> others;
+    for (auto& other : others) other = std::async(std::launch::async, take_tiles);
+    take_tiles();
+    for (auto& other : others) other.get();
+  }
+
+  std::optional<std::size_t> next_of(const std::vector<Work>& work) {
+    const std::lock_guard alone(sharing_);
+    const std::uint64_t i = ranks_.next();
+    return i < work.size() ? std::optional<std::size_t>(i) : std::nullopt;
+  }
+
+  void make_tile(const Work& work, Computing& computing) {
+    TileRecord record;
+    record.id = forest_.id(work);
+    record.rank = ranks_.rank();
+    const TileSurface surface = [&] {
+      const Permit permit(computing);
       const auto start = std::chrono::steady_clock::now();
-      TileSurface surface = forest_.compute(work[i], device_);
+      TileSurface computed = forest_.compute(work, device_);
       const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
-      TileRecord record;
-      record.id = forest_.id(work[i]);
       record.seconds = elapsed.count();
       record.resident_bytes = resident_memory();
-      record.rank = ranks_.rank();
-      wait();
-      writing = std::async(std::launch::async,
-                           [this, surface = std::move(surface), record = std::move(record)] {
-                             store_->put(surface, record);
-                             return surface.leaf_vertices;
-                           });
+      return computed;
+    }();
+    {
+      const std::lock_guard alone(storing_);
+      store_->put(surface, record);
     }
-    wait();
+    const std::lock_guard alone(sharing_);
+    leaf_vertices_ = ranks_.add(Sum::leaf_vertices, surface.leaf_vertices);
+    tell("tiles", ranks_.add(Sum::tiles, 1), all_);
   }
 
   void count_tiles() {
@@ -341,6 +382,8 @@ class Run {
   Forest forest_;
   nlohmann::ordered_json identity_;
   std::optional<Store> store_;
+  std::mutex storing_;  ///< held to put a tile into the store
+  std::mutex sharing_;  ///< held to talk to the other ranks and the user
   ForestSummary summary_;
   std::size_t all_ = 0;  ///< tiles of this run
   std::uint64_t leaf_vertices_ = 0;

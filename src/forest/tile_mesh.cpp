@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cstring>
-#include <numeric>
 #include <system_error>
 #include <utility>
 
@@ -99,22 +98,21 @@ class GlbReader {
   const std::string& where_;
 };
 
-/// Which vertices are connected with one of `seeds`.
-std::vector<bool> connected(const Mesh& mesh, const std::vector<std::uint32_t>& seeds) {
-  std::vector<std::uint32_t> parent(mesh.positions.size());
-  std::iota(parent.begin(), parent.end(), 0u);
-  const auto root = [&](std::uint32_t v) {
-    while (parent[v] != v) v = parent[v] = parent[parent[v]];
-    return v;
-  };
-  for (const auto& [a, b, c] : mesh.triangles) {
-    parent[root(b)] = root(a);
-    parent[root(c)] = root(a);
+/// Which vertices are connected with one of `seeds`. Triangles come brick by brick, so a few passes
+/// reach all of a small piece.
+std::vector<char> connected(const Mesh& mesh, const std::vector<std::uint32_t>& seeds) {
+  std::vector<char> is_connected(mesh.positions.size(), 0);
+  for (const std::uint32_t seed : seeds) is_connected[seed] = 1;
+  for (bool grows = true; grows;) {
+    grows = false;
+    for (const auto& [a, b, c] : mesh.triangles) {
+      const char any = is_connected[a] | is_connected[b] | is_connected[c];
+      const char all = is_connected[a] & is_connected[b] & is_connected[c];
+      if (any == all) continue;
+      is_connected[a] = is_connected[b] = is_connected[c] = 1;
+      grows = true;
+    }
   }
-  std::vector<bool> is_root_of_seed(parent.size());
-  for (const std::uint32_t seed : seeds) is_root_of_seed[root(seed)] = true;
-  std::vector<bool> is_connected(parent.size());
-  for (std::uint32_t v = 0; v < parent.size(); ++v) is_connected[v] = is_root_of_seed[root(v)];
   return is_connected;
 }
 
@@ -138,12 +136,12 @@ std::string checked_content(const fs::path& file, const FileRecord& record) {
 void drop_pieces(Mesh& mesh, Seam& seam, std::span<const std::uint32_t> dropped) {
   std::vector<std::uint32_t> seeds;
   for (const std::uint32_t c : dropped) seeds.push_back(seam.components[c].vertex);
-  const std::vector<bool> goes = connected(mesh, seeds);
+  const std::vector<char> goes = connected(mesh, seeds);
 
   std::vector<std::uint32_t> moved_to(goes.size());
   std::uint32_t kept = 0, own = 0;
   for (std::uint32_t v = 0; v < goes.size(); ++v) {
-    if (goes[v]) continue;
+    if (goes[v] != 0) continue;
     mesh.positions[kept] = mesh.positions[v];
     mesh.normals[kept] = mesh.normals[v];
     if (v < seam.own_vertices) ++own;
@@ -151,13 +149,13 @@ void drop_pieces(Mesh& mesh, Seam& seam, std::span<const std::uint32_t> dropped)
   }
   mesh.positions.resize(kept);
   mesh.normals.resize(kept);
-  std::erase_if(mesh.triangles, [&](const auto& triangle) { return goes[triangle[0]]; });
+  std::erase_if(mesh.triangles, [&](const auto& triangle) { return goes[triangle[0]] != 0; });
   for (auto& triangle : mesh.triangles) {
     for (std::uint32_t& v : triangle) v = moved_to[v];
   }
   seam.own_vertices = own;
   for (auto* vertices : {&seam.borrowed, &seam.lent}) {
-    std::erase_if(*vertices, [&](const SeamVertex& v) { return goes[v.vertex]; });
+    std::erase_if(*vertices, [&](const SeamVertex& v) { return goes[v.vertex] != 0; });
     for (SeamVertex& v : *vertices) v.vertex = moved_to[v.vertex];
   }
 }

@@ -26,7 +26,7 @@ Vec3d rounded(Vec3f offset) {
 template <class Visit>
 void for_each_lane(const PointBatch& batch, Visit&& visit) {
   tbb::parallel_for(std::size_t{0}, batch.chunks.size(), [&](std::size_t chunk) {
-    for (std::size_t i = 0; i < kChunkPoints; ++i) visit(chunk * kChunkPoints + i);
+    for (std::size_t i = 0; i < batch.chunk_points; ++i) visit(chunk * batch.chunk_points + i);
   });
 }
 
@@ -34,10 +34,11 @@ void for_each_lane(const PointBatch& batch, Visit&& visit) {
 
 std::vector<float> DensityFunction::at(std::span<const Vec3d> points) {
   std::vector<float> density(points.size(), 0.0f);
-  find_kernels_near(kernels_, points, Within::point, [&](const PointBatch& batch) {
-    const std::vector<float> values = evaluator_.density(batch);
-    for_each_lane(batch, [&](std::size_t lane) { density[batch.index[lane]] = values[lane]; });
-  });
+  find_kernels_near(
+      kernels_, points, Within::point, evaluator_.chunk_points(), [&](const PointBatch& batch) {
+        const std::vector<float> values = evaluator_.density(batch);
+        for_each_lane(batch, [&](std::size_t lane) { density[batch.index[lane]] = values[lane]; });
+      });
   return density;
 }
 
@@ -111,11 +112,12 @@ std::vector<Vec3f> DensityFunction::snap_points(std::span<Vec3<T>> points, doubl
       const std::uint32_t point = batch.index[lane];
       const Vec3f offset(batch.x[lane], batch.y[lane], batch.z[lane]);
       points[point] =
-          Vec3<T>(to_vec3d(batch.chunks[lane / kChunkPoints].origin) + rounded<T>(offset));
+          Vec3<T>(to_vec3d(batch.chunks[lane / batch.chunk_points].origin) + rounded<T>(offset));
       normals[point] = {normal.x[lane], normal.y[lane], normal.z[lane]};
     });
   };
-  find_kernels_near(kernels_, std::span<const Vec3<T>>(points), Within::cell, put);
+  find_kernels_near(kernels_, std::span<const Vec3<T>>(points), Within::cell,
+                    evaluator_.chunk_points(), put);
   return normals;
 }
 

@@ -90,7 +90,7 @@ class BadScenes(ForestTest):
         self.input("oak.glb", glb.tree(*glb.cards(20000, 2.5, half=0.02)))
         rows = [f"oak.glb,{20 + x},20,{20 + z}" for x in range(20) for z in range(20)]
         scene = self.stand(*rows)
-        words = ["densest tile needs", "GiB", "--memory is 0.5 GiB", "Raise --memory"]
+        words = ["densest tiles need", "GiB", "--memory is 0.5 GiB", "Raise --memory"]
         self.quickly(2, [*words, "--voxel-size"], scene, "--voxel-size", "2", "--memory", "512M")
         self.quickly(
             2, [*words, "--tile"], scene, "--voxel-size", "2", "--memory", "512M", "--tile", "128"

@@ -31,17 +31,18 @@ TEST(Points, EachComesOnceWithAllKernelsThatReachIt) {
   std::mt19937 random(5);
   std::vector<Vec3d> points;
   for (int i = 0; i < 2000; ++i) points.push_back(near.somewhere(random));
-  for (const Within within : {Within::point, Within::cell}) {
+  for (const auto& [within, chunk_points] :
+       {std::pair(Within::point, 8u), {Within::cell, 8u}, {Within::cell, 16u}}) {
     std::vector<int> chunks_with(points.size());
     std::size_t reached = 0, listed = 0;
-    find_kernels_near(near.set, points, within, [&](const PointBatch& batch) {
+    find_kernels_near(near.set, points, within, chunk_points, [&](const PointBatch& batch) {
       for (std::size_t c = 0; c < batch.chunks.size(); ++c) {
         const PointChunk& chunk = batch.chunks[c];
         const auto list = std::span(batch.kernels).subspan(chunk.first, chunk.end - chunk.first);
         EXPECT_TRUE(std::is_sorted(list.begin(), list.end()));
         if (!list.empty()) EXPECT_LT(list.back(), near.kernels.size());
         std::set<std::uint32_t> indices;
-        for (std::size_t i = c * kChunkPoints; i < (c + 1) * kChunkPoints; ++i) {
+        for (std::size_t i = c * chunk_points; i < (c + 1) * chunk_points; ++i) {
           const Vec3d at =
               to_vec3d(chunk.origin) + Vec3d(Vec3f(batch.x[i], batch.y[i], batch.z[i]));
           EXPECT_LT(length(at - points[batch.index[i]]), 1e-5);
@@ -69,7 +70,7 @@ TEST(Points, ManyInOnePlaceComeInBatches) {
   const Near near;
   const std::vector<Vec3d> points(100000, near.lattice.local(near.kernels.front().centre));
   std::size_t batches = 0, seen = 0;
-  find_kernels_near(near.set, points, Within::point, [&](const PointBatch& batch) {
+  find_kernels_near(near.set, points, Within::point, 8, [&](const PointBatch& batch) {
     ++batches;
     seen += batch.index.size();
     EXPECT_LE(batch.chunks.size(), std::size_t{1} << 15);
@@ -80,7 +81,7 @@ TEST(Points, ManyInOnePlaceComeInBatches) {
 
 TEST(Points, NoneAreNoBatch) {
   const Near near;
-  find_kernels_near(near.set, std::span<const Vec3d>(), Within::point,
+  find_kernels_near(near.set, std::span<const Vec3d>(), Within::point, 8,
                     [](const PointBatch&) { FAIL(); });
 }
 
