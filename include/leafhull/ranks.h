@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -40,6 +41,8 @@ class Ranks {
   /// Adds to a sum that all ranks share, 0 at first, and returns it. Waits for no other rank.
   virtual std::uint64_t add(Sum sum, std::uint64_t amount) = 0;
 
+  /// Adds up what the ranks hold, number by number. Collective.
+  virtual void sum(std::span<std::uint64_t> numbers) = 0;
   /// What every rank says, by rank. Collective.
   virtual std::vector<std::string> all(const std::string& mine) = 0;
   /// Waits for all, without taking a core. Collective.

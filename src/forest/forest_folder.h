@@ -15,6 +15,7 @@ namespace leafhull {
 
 inline constexpr std::string_view kManifestSchema = "leafhull-forest/1";
 inline constexpr std::string_view kPlanSchema = "leafhull-forest-plan/1";
+inline constexpr std::string_view kControlSchema = "leafhull-forest-control/1";
 inline constexpr std::string_view kFilesSchema = "leafhull-forest-files/1";
 
 /// LEVEL/X_Y_Z, as messages and names of files have it.
@@ -34,6 +35,7 @@ class ForestFolder {
   // Gone when the forest is finished.
   std::filesystem::path work() const { return folder_ / "work"; }
   std::filesystem::path plan() const { return work() / "plan.json"; }
+  std::filesystem::path control() const { return work() / "control.json"; }
   std::filesystem::path journal() const { return work() / ("journal-" + writer_ + ".jsonl"); }
   std::vector<std::filesystem::path> journals() const;
   std::filesystem::path mesh(const TileId& id) const { return work() / (name_of(id) + ".glb"); }

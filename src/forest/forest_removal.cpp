@@ -159,7 +159,7 @@ void ForestFolder::clear_work() const {
     if (is_temporary(entry.filename().string())) remove_path(entry);
   }
   // The plan last: without it, work/ is not ours.
-  for (const fs::path& file : {files(), removed(), plan()}) remove_path(file);
+  for (const fs::path& file : {files(), removed(), control(), plan()}) remove_path(file);
 }
 
 void ForestFolder::remove_temporary() const {

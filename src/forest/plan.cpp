@@ -15,6 +15,8 @@ namespace {
 constexpr int kEdges[] = {kTileEdge, kTileEdge / 2, kTileEdge / 4};
 /// Beside models and tiles: the program, its libraries and compiled kernels, and batches of lists.
 constexpr double kFixedBytes = 400.0 * (1 << 20);
+/// Of a tile that is done: its records, and its lines of journal, manifest and report.
+constexpr double kBytesPerTile = 4000;
 /// Of a kernel: on the lattice, in order of the scene and of the hash, and the hash itself.
 constexpr double kBytesPerKernel = 150;
 /// Of a sample, with polygons and mesh; and which share of a tile's samples is evaluated at most.
@@ -36,6 +38,12 @@ struct Hash {
 Box reached_box(const PlacedTree& tree, const ForestLevel& level) {
   const ForestModel& model = level.models[tree.model];
   return reached_box(tree, model.bounds, model.reach, level.voxel_size);
+}
+
+/// Where a tree counts: in control over the scene for the radii of any kernel that it reaches, too.
+Box heard_box(const Box& reached, const ForestLevel& level) {
+  const double r = level.scope == ControlScope::scene ? level.reach : 0;
+  return {reached.low - Vec3d(r, r, r), reached.high + Vec3d(r, r, r)};
 }
 
 Range tiles_in(const Box& box, double side) {
@@ -79,35 +87,37 @@ double bytes_of_models(std::span<const ForestLevel> levels) {
 TilePlan::TilePlan(const Scene& scene, const ForestLevel& level, int edge) {
   const double side = edge * level.voxel_size;
   struct Count {
-    std::size_t trees = 0;
     double weight = 0;
+    std::size_t trees = 0, next = 0;
   };
   std::unordered_map<Coord, Count, Hash> counts;
   for (const PlacedTree& tree : scene.trees) {
     const Box box = reached_box(tree, level);
     const auto kernels = static_cast<double>(level.models[tree.model].kernels.size());
-    for_each_tile(tiles_in(box, side), [&](Coord at) {
-      Count& count = counts[at];
-      ++count.trees;
-      count.weight += kernels * share_in(box, at, side);
-    });
+    for_each_tile(tiles_in(box, side),
+                  [&](Coord at) { counts[at].weight += kernels * share_in(box, at, side); });
   }
+  const auto for_each_place = [&](const auto& visit) {
+    for (std::uint32_t i = 0; i < scene.trees.size(); ++i) {
+      const Box box = heard_box(reached_box(scene.trees[i], level), level);
+      for_each_tile(tiles_in(box, side), [&](Coord at) {
+        if (const auto tile = counts.find(at); tile != counts.end()) visit(i, tile->second);
+      });
+    }
+  };
+  for_each_place([](std::uint32_t, Count& count) { ++count.trees; });
   for (const auto& [at, count] : counts) tiles_.push_back({level.level, at});
   std::sort(tiles_.begin(), tiles_.end());
 
   first_.push_back(0);
-  std::unordered_map<Coord, std::size_t, Hash> next;
   for (const TileId& tile : tiles_) {
-    const Count& count = counts[tile.at];
-    next[tile.at] = first_.back();
+    Count& count = counts[tile.at];
+    count.next = first_.back();
     first_.push_back(first_.back() + count.trees);
     weights_.push_back(static_cast<float>(count.weight));
   }
   trees_.resize(first_.back());
-  for (std::uint32_t i = 0; i < scene.trees.size(); ++i) {
-    const Box box = reached_box(scene.trees[i], level);
-    for_each_tile(tiles_in(box, side), [&](Coord at) { trees_[next[at]++] = i; });
-  }
+  for_each_place([&](std::uint32_t i, Count& count) { trees_[count.next++] = i; });
 }
 
 double TilePlan::heaviest() const {
@@ -130,7 +140,8 @@ int tile_edge(const Scene& scene, std::span<const ForestLevel> levels, std::opti
     const double samples = std::pow(edge + 2.0 * kBrickEdge, 3) * kShareOfSamples;
     // Kernels in the brick around the tile as well.
     const double around = std::pow(1 + 2.0 * kBrickEdge / edge, 2);
-    needed = kTilesAtOnce * (heaviest * around * kBytesPerKernel + samples * kBytesPerSample);
+    needed = tiles * kBytesPerTile +
+             kTilesAtOnce * (heaviest * around * kBytesPerKernel + samples * kBytesPerSample);
     if (needed <= left) return edge;
   }
   constexpr double kGiB = 1 << 30;

@@ -27,7 +27,8 @@ class TilePlan {
   std::size_t size() const { return tiles_.size(); }
   /// Ascending.
   std::span<const TileId> tiles() const { return tiles_; }
-  /// The trees whose density may reach tile `t` or the samples around it, ascending.
+  /// The trees whose density may reach tile `t` or the samples around it, or, in control over the
+  /// scene, the kernels that do; ascending.
   std::span<const std::uint32_t> trees(std::size_t t) const {
     return std::span(trees_).subspan(first_[t], first_[t + 1] - first_[t]);
   }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
+#include <algorithm>
 #include <set>
 #include <utility>
 
@@ -16,6 +18,9 @@ namespace leafhull {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// Tiles in memory at once.
+constexpr int kPlacedAtOnce = 8;
 
 /// A tile that loses nothing is the file that it was.
 PlacedTile place_whole(const StoredTiles& tiles, std::size_t t) {
@@ -79,9 +84,12 @@ FinishedForest put_in_place(const Store& store, std::span<const TileId> ids, int
   forest.dropped_components = dropped.count;
 
   std::vector<PlacedTile> placed(tiles.size());
-  tbb::parallel_for(std::size_t{0}, tiles.size(), [&](std::size_t t) {
-    const auto& pieces = dropped.of_tile[t];
-    placed[t] = pieces.empty() ? place_whole(tiles, t) : place_rest(tiles, t, pieces);
+  tbb::task_arena few(std::min(kPlacedAtOnce, tbb::this_task_arena::max_concurrency()));
+  few.execute([&] {
+    tbb::parallel_for(std::size_t{0}, tiles.size(), [&](std::size_t t) {
+      const auto& pieces = dropped.of_tile[t];
+      placed[t] = pieces.empty() ? place_whole(tiles, t) : place_rest(tiles, t, pieces);
+    });
   });
   std::set<fs::path> folders;
   for (std::size_t t = 0; t < tiles.size(); ++t) {
@@ -90,7 +98,8 @@ FinishedForest put_in_place(const Store& store, std::span<const TileId> ids, int
     folders.insert(tiles.folder().tile(tiles[t].id).parent_path());
   }
   for (const fs::path& folder : folders) sync_folder(folder);
-  if (single) forest.single = weld(tiles, placed, *single);
+  if (!folders.empty()) sync_folder(tiles.folder().tiles());
+  if (single && !forest.tiles.empty()) forest.single = weld(tiles, placed, *single);
   return forest;
 }
 

@@ -11,11 +11,13 @@
 #include <string>
 #include <utility>
 
+#include "density/control.h"
 #include "forest/compute_tile.h"
 #include "forest/identity.h"
 #include "forest/merge_none.h"
 #include "forest/plan.h"
 #include "forest/scene_control.h"
+#include "forest/sealed_json.h"
 #include "forest/store.h"
 #include "forest/tile_count.h"
 #include "forest/tileset.h"
@@ -136,12 +138,14 @@ class Run {
   ForestSummary canopy() {
     prepare();
     if (!open_store()) return summary();
-    if (!options_.finish) {
-      if (options_.control_scope == ControlScope::scene) control();
-      compute();
-    } else if (options_.control_scope == ControlScope::scene) {
-      for (ForestLevel& level : forest_.levels) level.threshold = NAN;  // those who computed know
+    if (options_.control_scope == ControlScope::scene && !restore_control()) {
+      if (options_.finish) {
+        for (ForestLevel& level : forest_.levels) level.threshold = NAN;  // no part has run
+      } else {
+        control();
+      }
     }
+    if (!options_.finish) compute();
     ranks_.barrier();
     store_->refresh();
     count_tiles();
@@ -221,6 +225,30 @@ class Run {
       control_over_scene(scene_, forest_.plans[l], forest_.edge, finest, forest_.levels[l], device_,
                          ranks_, advance);
     }
+    if (ranks_.rank() != 0) return;
+    Json levels = Json::array();
+    for (const ForestLevel& level : forest_.levels) {
+      levels.push_back({{"mean", level.scene_statistics->mean},
+                        {"variance", level.scene_statistics->variance},
+                        {"threshold", level.threshold}});
+    }
+    store_->keep_control(levels);
+  }
+
+  /// Takes what an earlier run or another part has kept; false where there is none.
+  bool restore_control() {
+    // As rank 0 sees it, so that all go the same way.
+    const std::optional<Json> mine = ranks_.rank() == 0 ? store_->control() : std::nullopt;
+    const std::string kept = ranks_.all(mine ? dumped(*mine) : "").front();
+    if (kept.empty()) return false;
+    const Json levels = Json::parse(kept);
+    for (std::size_t l = 0; l < forest_.levels.size(); ++l) {
+      ForestLevel& level = forest_.levels[l];
+      level.scene_statistics =
+          band(levels.at(l).at("mean"), levels.at(l).at("variance"), level.options);
+      level.threshold = levels.at(l).at("threshold");
+    }
+    return true;
   }
 
   /// The tiles of this run that are not on the disk, heavy ones first.
@@ -331,7 +359,7 @@ class Run {
     const std::vector<TileId> tiles = forest_.tiles();
     const FinishedForest finished =
         put_in_place(*store_, tiles, forest_.edge, small, options_.single);
-    if (finished.tiles.empty()) refuse_empty();  // every piece was small
+    if (finished.tiles.empty()) refuse_empty();
     std::vector<double> errors;
     for (const ForestLevel& level : forest_.levels) errors.push_back(level.error);
     const std::string tileset = tileset_json(finished.tiles, errors);
@@ -347,7 +375,14 @@ class Run {
   }
 
   [[noreturn]] void refuse_empty() {
+    const bool surface = std::ranges::any_of(store_->done(), [](const auto& tile) {
+      return tile.second.triangles > 0 || tile.second.dropped_components > 0;
+    });
     std::filesystem::remove_all(folder_ / "work");
+    if (surface) {
+      throw Error(ErrorCode::empty, "the forest is empty: every piece of its surface is small",
+                  "Lower --min-component.");
+    }
     throw Error(ErrorCode::empty,
                 "the forest is empty: no tree reaches the threshold at this voxel size",
                 "Lower --threshold or --voxel-size, or enlarge --radius-max.");

@@ -13,35 +13,36 @@
 namespace leafhull {
 namespace {
 
-/// Count, mean and squared deviations of a tile's densities.
-struct Moments {
-  std::uint64_t tile = 0;
-  double count = 0, mean = 0, deviations = 0;
-};
-
-Moments moments_of(std::uint64_t tile, std::span<const float> densities) {
-  Moments m{.tile = tile, .count = static_cast<double>(densities.size())};
-  if (densities.empty()) return m;
-  for (const float n : densities) m.mean += static_cast<double>(n);
-  m.mean /= m.count;
-  for (const float n : densities) {
-    const double d = static_cast<double>(n) - m.mean;
-    m.deviations += d * d;
+/// Sums over densities N_iso that depend on neither their order nor who adds them.
+class Moments {
+ public:
+  void add(float density) {
+    const auto n = static_cast<std::int64_t>(std::llround(static_cast<double>(density) * kOne));
+    ++count_;
+    sum_ += n;
+    squares_ += static_cast<Squares>(n) * n;
   }
-  return m;
-}
+  void add(const Moments& other) {
+    count_ += other.count_;
+    sum_ += other.sum_;
+    squares_ += other.squares_;
+  }
+  double mean() const { return static_cast<double>(exact_mean() / kOne); }
+  double variance() const {
+    const long double mean_of_squares = static_cast<long double>(squares_) / count_;
+    return static_cast<double>((mean_of_squares - exact_mean() * exact_mean()) / kOne / kOne);
+  }
 
-/// Source: Chan, Golub and LeVeque, "Updating Formulae and a Pairwise Algorithm for Computing
-/// Sample Variances", 1979.
-Moments together(const Moments& a, const Moments& b) {
-  if (a.count == 0) return b;
-  if (b.count == 0) return a;
-  const double count = a.count + b.count, apart = b.mean - a.mean;
-  return {.tile = 0,
-          .count = count,
-          .mean = a.mean + apart * b.count / count,
-          .deviations = a.deviations + b.deviations + apart * apart * a.count * b.count / count};
-}
+ private:
+  static constexpr double kOne = 1 << 20;
+  __extension__ using Squares = __int128;
+
+  long double exact_mean() const { return static_cast<long double>(sum_) / count_; }
+
+  std::uint64_t count_ = 0;
+  std::int64_t sum_ = 0;
+  Squares squares_ = 0;
+};
 
 /// Positive floats by their leading bits: 2^16 steps for each power of two.
 class Histogram {
@@ -73,16 +74,15 @@ class Histogram {
   std::vector<std::uint64_t> counts_;
 };
 
-template <class T>
-std::string bytes_of(std::span<const T> values) {
-  return {reinterpret_cast<const char*>(values.data()), values.size_bytes()};
-}
-
-template <class T>
-void append(std::vector<T>& values, const std::string& bytes) {
-  const std::size_t before = values.size();
-  values.resize(before + bytes.size() / sizeof(T));
-  if (!bytes.empty()) std::memcpy(values.data() + before, bytes.data(), bytes.size());
+/// What the ranks have counted, together.
+Moments together(const Moments& mine, Ranks& ranks) {
+  Moments sum;
+  for (const std::string& bytes : ranks.all({reinterpret_cast<const char*>(&mine), sizeof mine})) {
+    Moments one;
+    std::memcpy(&one, bytes.data(), sizeof one);
+    sum.add(one);
+  }
+  return sum;
 }
 
 /// The ranks take tiles in turn.
@@ -108,36 +108,22 @@ void control_over_scene(const Scene& scene, const TilePlan& plan, int edge,
                         const ForestLevel* finest, ForestLevel& level, Device& device, Ranks& ranks,
                         const TilesDone& advance) {
   const auto task = [&](std::size_t t) { return TileTask{plan.tiles()[t], edge, plan.trees(t)}; };
-  std::vector<Moments> parts;
+  Moments mine;
   for_each_tile(plan, ranks, advance, [&](std::size_t t) {
-    parts.push_back(moments_of(t, isotropic_density_in(scene, level, task(t), device)));
+    for (const float n : isotropic_density_in(scene, level, task(t), device)) mine.add(n);
   });
-  std::vector<Moments> all;
-  for (const std::string& bytes : ranks.all(bytes_of(std::span<const Moments>(parts)))) {
-    append(all, bytes);
-  }
-  std::sort(all.begin(), all.end(),
-            [](const Moments& a, const Moments& b) { return a.tile < b.tile; });
-  Moments sum;
-  for (const Moments& part : all) sum = together(sum, part);
-  level.scene_statistics = band(sum.mean, sum.deviations / sum.count, level.options);
+  const Moments moments = together(mine, ranks);
+  level.scene_statistics = band(moments.mean(), moments.variance(), level.options);
 
   if (!level.options.coverage) {
-    level.threshold = threshold_of(level, finest, sum.mean);
+    level.threshold = threshold_of(level, finest, moments.mean());
     return;
   }
   Histogram histogram;
   for_each_tile(plan, ranks, advance, [&](std::size_t t) {
     for (const float n : density_in(scene, level, task(t), device)) histogram.add(n);
   });
-  const std::vector<std::string> counts =
-      ranks.all(bytes_of(std::span<const std::uint64_t>(histogram.counts())));
-  std::fill(histogram.counts().begin(), histogram.counts().end(), 0);
-  for (const std::string& bytes : counts) {
-    std::vector<std::uint64_t> part;
-    append(part, bytes);
-    for (std::size_t i = 0; i < part.size(); ++i) histogram.counts()[i] += part[i];
-  }
+  ranks.sum(histogram.counts());
   level.threshold = histogram.quantile(*level.options.coverage);
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <set>
 #include <system_error>
 #include <utility>
 
@@ -88,6 +89,7 @@ struct Store::Impl {
   Json files;  ///< of a finished forest, by name
   std::optional<LineFile> journal;
   std::map<TileId, TileRecord> done;
+  std::set<int> synced;  ///< levels whose folders are known to last
   std::vector<std::string> warnings;
 };
 
@@ -104,6 +106,7 @@ void Store::Impl::open(bool resume, bool restart) {
   }
   open_plan();
   journal.emplace(folder.journal(), "another process of the name " + writer);
+  sync_folder(folder.work());
   folder.remove_temporary();
   refresh();
   if (!resume && !done.empty()) {
@@ -196,6 +199,22 @@ Store::Store(const fs::path& folder, const Json& plan, const std::string& writer
 Store::~Store() = default;
 
 const std::map<TileId, TileRecord>& Store::done() const { return impl_->done; }
+std::optional<Json> Store::control() const {
+  const fs::path file = impl_->folder.control();
+  if (!fs::exists(file)) return std::nullopt;
+  const Json kept = read_sealed(file, kControlSchema);
+  if (kept.at("plan") != impl_->plan_checksum) {
+    throw Error(ErrorCode::usage, file.string() + " is of another forest", kStartOver);
+  }
+  return kept.at("levels");
+}
+
+void Store::keep_control(const Json& levels) {
+  const Json file =
+      sealed({{"schema", kControlSchema}, {"plan", impl_->plan_checksum}, {"levels", levels}});
+  impl_->folder.write_once(impl_->folder.control(), dumped(file, 2) + "\n");
+}
+
 void Store::refresh() { impl_->refresh(); }
 bool Store::finished() const { return impl_->finished; }
 bool Store::holds(const std::string& file) const { return impl_->files.contains(file); }
@@ -228,7 +247,10 @@ TileRecord Store::put(const TileSurface& surface, TileRecord record) {
                                [&](std::ostream& stream) { write_seam(seam, stream); });
   }
   const fs::path level = folder.mesh(record.id).parent_path();
-  if (!record.mesh.sha256.empty() || !record.seam.sha256.empty()) sync_folder(level);
+  if (!record.mesh.sha256.empty() || !record.seam.sha256.empty()) {
+    sync_folder(level);
+    if (impl_->synced.insert(record.id.level).second) sync_folder(folder.work());
+  }
 
   Json line{{"schema", kTileSchema}, {"plan", impl_->plan_checksum}};
   line.update(json_of(record));

@@ -43,6 +43,10 @@ class Store {
   const std::map<TileId, TileRecord>& done() const;
   /// @throws Error input: a journal that is damaged.
   void refresh();
+  /// What control over the scene has found, by level, once it is kept: what was computed need not
+  /// be again. @throws Error input: damaged.
+  std::optional<nlohmann::ordered_json> control() const;
+  void keep_control(const nlohmann::ordered_json& levels);
   /// Whether manifest.json is there: the forest is finished, and nothing is kept any more.
   bool finished() const;
   /// Whether the finished forest has this file beside its tiles.

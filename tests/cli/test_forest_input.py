@@ -57,6 +57,16 @@ class BadScenes(ForestTest):
             with self.subTest(flags):
                 self.refuse(6, ["empty"], scene, *COARSE, "--threshold", "1e6", *flags)
 
+    def test_every_piece_is_small(self):
+        scene = self.stand(*["ash.glb,0,0,0"] * 3, "ash.glb,30,0,0")
+        single = self.folder / "all.ply"
+        single.write_text("mine")
+        flags = ("--style", "thin", "--coverage", "0.001", "--control-scope", "scene")
+        self.refuse(6, ["empty", "--min-component"], scene, *COARSE, *flags,
+                    "--min-component", "1", "--single", single)  # fmt: skip
+        self.assertEqual(single.read_text(), "mine")
+        self.forest(scene, "forest", *COARSE, *flags, "--min-component", "0")
+
     def test_a_folder_that_cannot_be_written(self):
         scene = self.stand("ash.glb,0,0,0")
         self.fail_with(5, ["/proc/forest"], "forest", scene, "-o", "/proc/forest")

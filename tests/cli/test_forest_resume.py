@@ -25,8 +25,9 @@ class CutOff(ForestTest):
         self.place = self.out / "cut"
 
     def undisturbed(self):
+        self.forest(self.scene, "cut", *self.flags)  # which may compile kernels
         begin = time.monotonic()
-        self.forest(self.scene, "cut", *self.flags)
+        self.forest(self.scene, "cut", *self.flags, "--restart")
         self.seconds = time.monotonic() - begin
         return files_in(self.place)
 
@@ -151,6 +152,19 @@ class Folders(ForestTest):
         self.refuse(2, ["unfinished", "--resume", "--restart"], *TILED)
         self.forest(self.scene, "forest", *TILED, "--resume")
         self.forest(self.scene, "other", *TILED)
+        self.assert_same_files(self.place, files_in(self.out / "other"))
+
+    def test_control_over_the_scene_is_kept(self):
+        flags = (*TILED, "--control-scope", "scene")
+        self.unfinished(*flags)
+        kept = self.place / "work" / "control.json"
+        text = kept.read_text()
+        kept.write_text(text.replace('"mean": ', '"mean": 1'))
+        self.refuse(3, ["control.json", "damaged", "--restart"], *flags, "--resume")
+        kept.write_text(text)
+        result = self.forest(self.scene, "forest", *flags, "--resume", "--verbose")
+        self.assertNotIn("control", result.stderr, "it is not computed again")
+        self.forest(self.scene, "other", *flags)
         self.assert_same_files(self.place, files_in(self.out / "other"))
 
     def test_a_finished_forest(self):

@@ -69,9 +69,10 @@ Device& device() {
   return device;
 }
 
-Options options() {
+Options options(std::optional<double> radius_max = {}) {
   Options o;
   o.voxel_size = 0.2;
+  o.radius_max = radius_max;
   return resolve(o);
 }
 
@@ -126,13 +127,13 @@ std::size_t open_edges(const Surface& surface) {
       std::count_if(edges.begin(), edges.end(), [](const auto& e) { return e.second != 0; }));
 }
 
-ForestLevel level_of(const Scene& scene, int number = 0) {
+ForestLevel level_of(const Scene& scene, int number = 0, const Options& resolved = options()) {
   const std::vector<LeafSet> models{crown(1, 900, 3), crown(2, 500, 2)};
   const std::vector<ModelUse> uses = model_uses(scene);
-  const ForestLevel finest = prepare_level(0, models, uses, options(), 0.2, nullptr, device());
+  const ForestLevel finest = prepare_level(0, models, uses, resolved, 0.2, nullptr, device());
   // Its `least` stays 0: small pieces over seams are known once all tiles are.
   return number == 0 ? finest
-                     : prepare_level(number, models, uses, options(), 0.2, &finest, device());
+                     : prepare_level(number, models, uses, resolved, 0.2, &finest, device());
 }
 
 void expect_same(const Surface& a, const Surface& b) {
@@ -167,6 +168,21 @@ TEST(Forest, WithControlOverTheScene) {
   level.scope = ControlScope::scene;
   level.scene_statistics = DensityStatistics{.mean = 8, .variance = 9, .p1 = 8, .p2 = 14};
   expect_same(surface_of(scene, level, 64), surface_of(scene, level, 512));
+}
+
+/// Kernels around a tile have their radii from trees that are farther than any kernel of them.
+TEST(Forest, WithControlByTreesThatReachOnlyItsNeighbours) {
+  Scene scene;
+  scene.models.resize(2);
+  scene.trees = {placed(0, {9, 0, 6}, 0, 1), placed(0, {15, 0, 6}, 1, 1)};
+  ForestLevel level = level_of(scene, 0, options(53));
+  EXPECT_GT(level.reach, 12 * level.voxel_size);
+  level.scope = ControlScope::scene;
+  level.threshold = 20;
+  level.scene_statistics = DensityStatistics{.mean = 8, .variance = 9, .p1 = 300, .p2 = 2000};
+  const Surface whole = surface_of(scene, level, 512);
+  EXPECT_GT(whole.triangles.size(), 1000u);
+  expect_same(surface_of(scene, level, 32), whole);
 }
 
 TEST(Forest, OnALevelOfAbstraction) {

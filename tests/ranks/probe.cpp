@@ -79,6 +79,16 @@ void sum() {
   say_line(ranks->add(Sum::tiles, 0), ranks->add(Sum::leaf_vertices, 0), ranks->last(Sum::tiles));
 }
 
+/// More numbers than fit into one message of a usual size.
+void add_up() {
+  std::vector<std::uint64_t> numbers(1 << 20);
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    numbers[i] = (std::uint64_t{1} << 40) * static_cast<std::uint64_t>(ranks->rank() + 1) + i;
+  }
+  ranks->sum(numbers);
+  say_line(numbers.front() >> 40, numbers.front() & 0xff, numbers.back() & 0xffffffff);
+}
+
 void talk() {
   const auto mine = static_cast<std::size_t>(ranks->rank());
   for (const std::string& said :
@@ -154,6 +164,7 @@ int main(int, char** words) {
       {"count", count},
       {"sum", sum},
       {"talk", talk},
+      {"add-up", add_up},
       {"busy", busy},
       {"idle", idle},
       {"lose-first", [] { lose(0); }},

@@ -97,6 +97,11 @@ class OneHost(RanksTest):
             heard = [[str(r * 100_000), *(["abcd"[r]] if r else [])] for r in range(size)]
             self.assertEqual(self.said(size, "talk"), {r: heard for r in range(size)})
 
+    def test_numbers_of_all_are_added_up(self):
+        for size in self.sizes:
+            everyone = [[str(size * (size + 1) // 2), "0", str(size * ((1 << 20) - 1))]]
+            self.assertEqual(self.said(size, "add-up"), {r: everyone for r in range(size)})
+
     def test_a_busy_rank_0_keeps_nobody_waiting(self):
         said = self.said(4, "busy")
         self.assertEqual(sorted(said), [1, 2, 3])

@@ -50,6 +50,13 @@ class MpiRanks final : public Ranks {
 
   std::uint64_t add(Sum sum, std::uint64_t amount) override { return add(counter_of(sum), amount); }
 
+  void sum(std::span<std::uint64_t> numbers) override {
+    wait([&](MPI_Request& request) {
+      return MPI_Iallreduce(MPI_IN_PLACE, numbers.data(), to_int(numbers.size()), MPI_UINT64_T,
+                            MPI_SUM, MPI_COMM_WORLD, &request);
+    });
+  }
+
   std::vector<std::string> all(const std::string& mine) override {
     const auto ranks = static_cast<std::size_t>(size());
     const int mine_size = to_int(mine.size());
