@@ -71,7 +71,7 @@ struct TileRow {
 struct LevelRow {
   int level = 0;
   double voxel_size = 0;  ///< h
-  double threshold = 0;   ///< T; NaN where it is the scene's and --finish did not need it
+  double threshold = 0;   ///< T; NaN where it is the scene's and no part has run
   double error = 0;       ///< how far its surface may be from that of level 0, scene units
 };
 
