@@ -11,7 +11,7 @@ shift
 mkdir -p "$folder"
 
 python3 "$here/hills.py" "$folder/hills.png"
-"$leafhull" scatter "$@" --count 2500 --seed 1 --area 420x380 \
+"$leafhull" scatter "$@" --count 2500 --seed 2 --area 420x380 \
   --height-map "$folder/hills.png" --height 65 -o "$folder/scene.csv"
 # shellcheck disable=SC2086  # FOREST is several words
 "$leafhull" forest "$folder/scene.csv" -o "$folder/forest" --merge canopy \
