@@ -58,6 +58,25 @@ void check_contradictions(const ForestOptions& forest) {
   refuse_together(apart, "--merge none", forest.finish, "--finish", remedy);
 }
 
+/// A forest writes over these names in its folder, and --restart removes what bears them.
+void check_name(const fs::path& file, std::string_view what, const fs::path& folder) {
+  std::error_code unreadable;  // which its reader or writer finds too
+  const auto place = [&](const fs::path& path) {
+    return fs::weakly_canonical(fs::absolute(path), unreadable);
+  };
+  for (const fs::path& found :
+       {place(fs::absolute(file).parent_path()) / file.filename(), place(file)}) {
+    const fs::path within = found.lexically_relative(place(folder));
+    for (const char* name : {"manifest.json", "tileset.json", "forest.glb", "tiles", "work"}) {
+      if (within.empty() || *within.begin() != name) continue;
+      throw Error(ErrorCode::usage,
+                  std::string(what) + " " + file.string() + " has a name of the forest's own: " +
+                      (folder / name).string() + " would be overwritten or removed",
+                  "Name another file, or another folder with -o.");
+    }
+  }
+}
+
 /// The forest's own folder may not be there yet.
 void check_file(const fs::path& file, std::string_view extension, const Arguments& arguments,
                 const fs::path& input) {
@@ -73,25 +92,31 @@ void check_arguments(const Arguments& arguments) {
     throw Error(ErrorCode::usage, "no folder for the forest is named", "Name one: -o out/.");
   }
   check_contradictions(arguments.forest);
+  check_name(arguments.tree, "the scene", arguments.folder);
   if (const std::optional<fs::path>& single = arguments.forest.single) {
     const std::string extension = lower_extension(*single);
     if (extension != ".glb" && extension != ".ply") {
       throw Error(ErrorCode::usage, "--single cannot be written to " + single->string(),
                   "Name a .glb or .ply file.");
     }
+    check_name(*single, "--single", arguments.folder);
     check_file(*single, extension, arguments, arguments.tree);
   }
   const std::optional<fs::path>& report = arguments.files.report;
-  if (report && *report != "-") check_file(*report, ".json", arguments, arguments.tree);
+  if (report && *report != "-") {
+    check_name(*report, "--report", arguments.folder);
+    check_file(*report, ".json", arguments, arguments.tree);
+  }
   check_output_folder(arguments.folder);
 }
 
 /// A forest does not overwrite its trees.
-void check_single(const Arguments& arguments, const Scene& scene) {
+void check_models(const Arguments& arguments, const Scene& scene) {
   const std::optional<fs::path>& single = arguments.forest.single;
   for (const SceneModel& model : scene.models) {
-    if (!single || model.file.empty()) continue;
-    check_file(*single, lower_extension(*single), arguments, model.file);
+    if (model.file.empty()) continue;
+    check_name(model.file, "the model", arguments.folder);
+    if (single) check_file(*single, lower_extension(*single), arguments, model.file);
   }
 }
 
@@ -201,7 +226,7 @@ void make_forest(const Arguments& arguments, Ranks& ranks) {
   console.progress("read", 0);
   const Scene scene = read_scene(arguments.tree, shape.leaf_options());
   for (const std::string& warning : scene.warnings) console.warn(warning);
-  check_single(arguments, scene);
+  check_models(arguments, scene);
   Device device = opening.get();
   console.detail("device      " + device.info().name);
   console.detail("scene       " + counted(scene.trees.size(), "tree") + " of " +
