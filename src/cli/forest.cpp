@@ -134,6 +134,15 @@ void check_ranks_agree(const Arguments& arguments, Ranks& ranks) {
   }
 }
 
+/// Ranks would write one journal, as the one part.
+void check_ranks_share_all(const Arguments& arguments, const Ranks& ranks) {
+  if (ranks.size() == 1 || !arguments.forest.range) return;
+  throw Error(ErrorCode::usage,
+              "--tile-range is not for ranks: the " + std::to_string(ranks.size()) +
+                  " that were started share all tiles",
+              "Leave it out, or start each part on its own, without mpirun.");
+}
+
 std::string how_to_go_on(const ForestOptions& forest) {
   if (forest.resume) return "the same command goes on";
   return std::string("the same command with --resume") +
@@ -214,6 +223,7 @@ void make_forest(const Arguments& arguments, Ranks& ranks) {
   const bool speaks = ranks.rank() == 0;
   Console console(arguments.quiet || !speaks, arguments.verbose && speaks);
   check_ranks_agree(arguments, ranks);
+  check_ranks_share_all(arguments, ranks);
   check_arguments(arguments);
   ForestOptions options = arguments.forest;
   options.shape = arguments.options;

@@ -136,6 +136,20 @@ class ForestRanks(CommandTest):
         self.assertEqual(len(our_lines(text)), 1, text)
         self.assertRegex(our_lines(text)[0], r"leafhull: error: rank \d: .*no\.glb")
 
+    def test_a_part_is_not_for_ranks(self):
+        code, text = self.end(self.start(2, self.out / "stand", "--tile-range", "1/2"))
+        self.assertEqual(code, 2, text)
+        (line,) = our_lines(text)
+        self.assertRegex(line, r"error: rank \d: --tile-range .*\b2\b.* without mpirun\.")
+        self.assertEqual(self.written(), [])
+        flags = ("--voxel-size", "0.1", "--tile", "32")
+        for part in ("1/2", "2/2"):
+            code, text = self.end(self.start(1, self.out / "stand", *flags, "--tile-range", part))
+            self.assertEqual(code, 0, text)
+        code, text = self.end(self.start(2, self.out / "stand", *flags, "--finish"))
+        self.assertEqual(code, 0, text)
+        self.assertIn("tileset.json", self.written())
+
     def test_ranks_that_were_started_with_different_words(self):
         one = self.command(1, self.out / "stand")
         other = self.command(1, self.out / "other")
