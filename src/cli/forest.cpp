@@ -248,9 +248,12 @@ void make_forest(const Arguments& arguments, Ranks& ranks) {
   }
 
   std::uint64_t leaf_vertices = 0;
+  ForestProgress last;
   const ForestSummary summary =
       run_forest(scene, options, device, ranks, arguments.folder, [&](const ForestProgress& now) {
         leaf_vertices = now.leaf_vertices;
+        if (now.stage != last.stage || now.tiles_done < last.tiles_done) console.count_anew();
+        last = now;
         if (now.tiles == 0) return console.progress(now.stage, 0);
         words.set_tiles(now.tiles);
         console.progress(now.stage, now.tiles_done, now.tiles,
