@@ -155,6 +155,11 @@ DeviceOptions device_of(const Arguments& arguments, const Ranks& ranks) {
   return device;
 }
 
+void warn_of_memory(const Arguments& arguments, Console& console) {
+  if (!arguments.given.contains("memory") || arguments.forest.merge != Merge::none) return;
+  console.warn("--memory bounds a canopy alone: --merge none takes what its models need");
+}
+
 std::string per_second(double leaf_vertices, double seconds) {
   const double pace = seconds > 0 ? leaf_vertices / seconds : 0;
   const std::string text =
@@ -225,6 +230,7 @@ void make_forest(const Arguments& arguments, Ranks& ranks) {
   check_ranks_agree(arguments, ranks);
   check_ranks_share_all(arguments, ranks);
   check_arguments(arguments);
+  warn_of_memory(arguments, console);
   ForestOptions options = arguments.forest;
   options.shape = arguments.options;
   // Names are typed relative to the working folder.

@@ -89,9 +89,10 @@ std::vector<Flag> work_flags() {
        .unit = "bytes, or with K, M, G, T",
        .range = ">= 256M",
        .default_value = "4G",
-       .help = "resident memory of a rank, at most",
+       .help = "resident memory of a rank, at most, in a canopy",
        .set =
            [](Arguments& a, const std::string& text) {
+             a.given.insert("memory");
              a.forest.memory = byte_count("--memory", text, kLeastMemory);
            }},
       {.spelling = "--tile",
