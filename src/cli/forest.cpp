@@ -222,6 +222,17 @@ void keep_freed_memory() {
   mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
 }
 
+/// An error, after which the tiles that are done stay, with how many are not.
+[[noreturn]] void rethrow_with(const std::string& still_to_do) {
+  const Failure failure = current_failure();
+  const auto code = static_cast<ErrorCode>(failure.exit_code);
+  const bool tells_itself =
+      code == ErrorCode::usage || code == ErrorCode::input || code == ErrorCode::empty;
+  if (tells_itself || still_to_do.empty()) throw;
+  throw Error(code, failure.what,
+              failure.remedy + (failure.remedy.empty() ? "" : " ") + still_to_do);
+}
+
 void make_forest(const Arguments& arguments, Ranks& ranks) {
   keep_freed_memory();
   const auto start = Clock::now();
@@ -255,17 +266,23 @@ void make_forest(const Arguments& arguments, Ranks& ranks) {
 
   std::uint64_t leaf_vertices = 0;
   ForestProgress last;
-  const ForestSummary summary =
-      run_forest(scene, options, device, ranks, arguments.folder, [&](const ForestProgress& now) {
-        leaf_vertices = now.leaf_vertices;
-        if (now.stage != last.stage || now.tiles_done < last.tiles_done) console.count_anew();
-        last = now;
-        if (now.tiles == 0) return console.progress(now.stage, 0);
-        words.set_tiles(now.tiles);
-        console.progress(now.stage, now.tiles_done, now.tiles,
-                         per_second(static_cast<double>(leaf_vertices), since(start)) + ", " +
-                             bytes(now.resident_bytes));
-      });
+  const auto advance = [&](const ForestProgress& now) {
+    leaf_vertices = now.leaf_vertices;
+    if (now.stage != last.stage || now.tiles_done < last.tiles_done) console.count_anew();
+    last = now;
+    if (now.tiles == 0) return console.progress(now.stage, 0);
+    if (now.stage == "tiles") words.set_tiles(now.tiles);
+    console.progress(now.stage, now.tiles_done, now.tiles,
+                     per_second(static_cast<double>(leaf_vertices), since(start)) + ", " +
+                         bytes(now.resident_bytes));
+  };
+  const ForestSummary summary = [&] {
+    try {
+      return run_forest(scene, options, device, ranks, arguments.folder, advance);
+    } catch (const std::exception&) {
+      rethrow_with(words.still_to_do());
+    }
+  }();
   if (!speaks) return;
   for (const std::string& warning : summary.warnings) console.warn(warning);
   write_report(summary, arguments, options);

@@ -72,6 +72,14 @@ class CutOff(ForestTest):
         _, text = process.communicate(timeout=300)
         return subprocess.CompletedProcess(process.args, process.returncode, stderr=text)
 
+    def assert_says_what_is_left(self, result):
+        told = re.search(r"\. (\d+) of (\d+) tiles are still to do; the same command with --resume "
+                         r"goes on\.\n\Z", result.stderr)  # fmt: skip
+        self.assertIsNotNone(told, result.stderr)
+        journals = (self.place / "work").glob("journal-*")
+        done = sum(len(journal.read_text().splitlines()) for journal in journals)
+        self.assertEqual(int(told[2]) - int(told[1]), done)
+
     def assert_one_line(self, result):
         self.assertEqual(result.returncode, 5, result.stderr)
         self.assertRegex(result.stderr, r"\Aleafhull: error: cannot write [^\n]*\n\Z")
@@ -83,7 +91,9 @@ class CutOff(ForestTest):
         for limit in (1000, largest // 2, largest + 1000):
             with self.subTest(limit):
                 shutil.rmtree(self.place)
-                self.assert_one_line(self.run_with_files_up_to(limit))
+                result = self.run_with_files_up_to(limit)
+                self.assert_one_line(result)
+                self.assert_says_what_is_left(result)
                 left = [name for name in files_in(self.place) if name.endswith(".tmp")]
                 self.assertEqual(left, [])
                 self.forest(self.scene, "cut", *self.flags, "--resume")
