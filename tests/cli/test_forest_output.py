@@ -225,6 +225,7 @@ class Reports(ForestTest):
         self.forest(scene, "forest", *flags, "--resume")
         rest = json.loads(report.read_text())
         self.assertEqual(rest["resumed"], len(part["tiles"]))
+        self.assertEqual(len(rest["tiles"]), rest["counts"]["tiles"], "earlier ones too")
         self.assertEqual(rest["remaining"], 0)
 
 
