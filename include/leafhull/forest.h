@@ -56,15 +56,15 @@ struct ForestProgress {
 };
 using ForestProgressVisitor = std::function<void(const ForestProgress&)>;
 
-/// A tile that this run has computed.
+/// A tile that is done.
 struct TileRow {
   int level = 0, x = 0, y = 0, z = 0;  ///< as in tiles/LEVEL/X_Y_Z.glb
   std::uint64_t leaf_vertices = 0;     ///< in the tile
   std::uint64_t gathered = 0;          ///< kernels that reach it
   std::uint64_t evaluated_voxels = 0, vertices = 0, triangles = 0;
   double seconds = 0;
-  std::uint64_t resident_bytes = 0;  ///< of its process, the most while it was computed
-  int rank = 0;
+  std::uint64_t resident_bytes = 0;  ///< of its process, once it was computed
+  int rank = 0;                      ///< of the run that has computed it
 };
 
 /// A level of abstraction as it came out.
@@ -85,7 +85,8 @@ struct ForestSummary {
   std::uint64_t peak_memory_bytes = 0;  ///< of the largest rank
   std::vector<StageTime> seconds;
   std::vector<LevelRow> levels;
-  std::vector<TileRow> rows;  ///< of all ranks, by tile
+  /// Of all tiles that are done, by earlier runs and other ranges too; none where `was_finished`.
+  std::vector<TileRow> rows;
   bool was_finished = false;  ///< by an earlier run: nothing was to do
   std::vector<std::string> warnings;
 };

@@ -23,7 +23,7 @@ struct Arguments {
   std::vector<std::string> command;  ///< the words as typed
   std::filesystem::path tree;
   Options options;
-  std::set<std::string_view> given;  ///< names of the rows of option_table() that were typed
+  std::set<std::string_view> given;  ///< names of typed options, as option_table() has them
   std::string typed;                 ///< the options again, quoted for a shell
   OutputFiles files;
   DeviceOptions device;

@@ -82,8 +82,10 @@ void Console::progress_of_all(std::string_view stage, double done) {
 
 void Console::progress(std::string_view stage, std::size_t done, std::size_t all,
                        const std::string& facts) {
-  if (!resumed_) resumed_ = done, resumed_at_ = Clock::now();
-  if (Clock::now() - drawn_ < kRedraw) return;  // its stages are too short to follow each
+  const bool begins = !resumed_;
+  if (begins) resumed_ = done, resumed_at_ = Clock::now();
+  if (!begins && Clock::now() - drawn_ < kRedraw)
+    return;  // its stages are too short to follow each
   std::string beside = std::to_string(done) + " of " + std::to_string(all) + ", " +
                        (facts.empty() ? "" : facts + ", ") + seconds(since(start_));
   if (done > *resumed_ && done < all) {

@@ -26,9 +26,11 @@ class Console {
   /// The same where `done` is of all there is to do, with the time left.
   void progress_of_all(std::string_view stage, double done);
   /// The same for a row of things: how many are done, and from their pace the time left. What is
-  /// done at the first call was not done now. `facts` stand beside them.
+  /// done at the first call was not done now, nor at the first after count_anew(). `facts` stand
+  /// beside them.
   void progress(std::string_view stage, std::size_t done, std::size_t all,
                 const std::string& facts = {});
+  void count_anew() { resumed_.reset(); }
 
  private:
   using Clock = std::chrono::steady_clock;

@@ -58,6 +58,25 @@ void check_contradictions(const ForestOptions& forest) {
   refuse_together(apart, "--merge none", forest.finish, "--finish", remedy);
 }
 
+/// A forest writes over these names in its folder, and --restart removes what bears them.
+void check_name(const fs::path& file, std::string_view what, const fs::path& folder) {
+  std::error_code unreadable;  // which its reader or writer finds too
+  const auto place = [&](const fs::path& path) {
+    return fs::weakly_canonical(fs::absolute(path), unreadable);
+  };
+  for (const fs::path& found :
+       {place(fs::absolute(file).parent_path()) / file.filename(), place(file)}) {
+    const fs::path within = found.lexically_relative(place(folder));
+    for (const char* name : {"manifest.json", "tileset.json", "forest.glb", "tiles", "work"}) {
+      if (within.empty() || *within.begin() != name) continue;
+      throw Error(ErrorCode::usage,
+                  std::string(what) + " " + file.string() + " has a name of the forest's own: " +
+                      (folder / name).string() + " would be overwritten or removed",
+                  "Name another file, or another folder with -o.");
+    }
+  }
+}
+
 /// The forest's own folder may not be there yet.
 void check_file(const fs::path& file, std::string_view extension, const Arguments& arguments,
                 const fs::path& input) {
@@ -73,25 +92,31 @@ void check_arguments(const Arguments& arguments) {
     throw Error(ErrorCode::usage, "no folder for the forest is named", "Name one: -o out/.");
   }
   check_contradictions(arguments.forest);
+  check_name(arguments.tree, "the scene", arguments.folder);
   if (const std::optional<fs::path>& single = arguments.forest.single) {
     const std::string extension = lower_extension(*single);
     if (extension != ".glb" && extension != ".ply") {
       throw Error(ErrorCode::usage, "--single cannot be written to " + single->string(),
                   "Name a .glb or .ply file.");
     }
+    check_name(*single, "--single", arguments.folder);
     check_file(*single, extension, arguments, arguments.tree);
   }
   const std::optional<fs::path>& report = arguments.files.report;
-  if (report && *report != "-") check_file(*report, ".json", arguments, arguments.tree);
+  if (report && *report != "-") {
+    check_name(*report, "--report", arguments.folder);
+    check_file(*report, ".json", arguments, arguments.tree);
+  }
   check_output_folder(arguments.folder);
 }
 
 /// A forest does not overwrite its trees.
-void check_single(const Arguments& arguments, const Scene& scene) {
+void check_models(const Arguments& arguments, const Scene& scene) {
   const std::optional<fs::path>& single = arguments.forest.single;
   for (const SceneModel& model : scene.models) {
-    if (!single || model.file.empty()) continue;
-    check_file(*single, lower_extension(*single), arguments, model.file);
+    if (model.file.empty()) continue;
+    check_name(model.file, "the model", arguments.folder);
+    if (single) check_file(*single, lower_extension(*single), arguments, model.file);
   }
 }
 
@@ -109,6 +134,15 @@ void check_ranks_agree(const Arguments& arguments, Ranks& ranks) {
   }
 }
 
+/// Ranks would write one journal, as the one part.
+void check_ranks_share_all(const Arguments& arguments, const Ranks& ranks) {
+  if (ranks.size() == 1 || !arguments.forest.range) return;
+  throw Error(ErrorCode::usage,
+              "--tile-range is not for ranks: the " + std::to_string(ranks.size()) +
+                  " that were started share all tiles",
+              "Leave it out, or start each part on its own, without mpirun.");
+}
+
 std::string how_to_go_on(const ForestOptions& forest) {
   if (forest.resume) return "the same command goes on";
   return std::string("the same command with --resume") +
@@ -119,6 +153,11 @@ DeviceOptions device_of(const Arguments& arguments, const Ranks& ranks) {
   DeviceOptions device = arguments.device;
   if (device.threads == 0 && ranks.size() > 1) device.threads = ranks.cores();
   return device;
+}
+
+void warn_of_memory(const Arguments& arguments, Console& console) {
+  if (!arguments.given.contains("memory") || arguments.forest.merge != Merge::none) return;
+  console.warn("--memory bounds a canopy alone: --merge none takes what its models need");
 }
 
 std::string per_second(double leaf_vertices, double seconds) {
@@ -183,13 +222,26 @@ void keep_freed_memory() {
   mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
 }
 
+/// An error, after which the tiles that are done stay, with how many are not.
+[[noreturn]] void rethrow_with(const std::string& still_to_do) {
+  const Failure failure = current_failure();
+  const auto code = static_cast<ErrorCode>(failure.exit_code);
+  const bool tells_itself =
+      code == ErrorCode::usage || code == ErrorCode::input || code == ErrorCode::empty;
+  if (tells_itself || still_to_do.empty()) throw;
+  throw Error(code, failure.what,
+              failure.remedy + (failure.remedy.empty() ? "" : " ") + still_to_do);
+}
+
 void make_forest(const Arguments& arguments, Ranks& ranks) {
   keep_freed_memory();
   const auto start = Clock::now();
   const bool speaks = ranks.rank() == 0;
   Console console(arguments.quiet || !speaks, arguments.verbose && speaks);
   check_ranks_agree(arguments, ranks);
+  check_ranks_share_all(arguments, ranks);
   check_arguments(arguments);
+  warn_of_memory(arguments, console);
   ForestOptions options = arguments.forest;
   options.shape = arguments.options;
   // Names are typed relative to the working folder.
@@ -201,7 +253,7 @@ void make_forest(const Arguments& arguments, Ranks& ranks) {
   console.progress("read", 0);
   const Scene scene = read_scene(arguments.tree, shape.leaf_options());
   for (const std::string& warning : scene.warnings) console.warn(warning);
-  check_single(arguments, scene);
+  check_models(arguments, scene);
   Device device = opening.get();
   console.detail("device      " + device.info().name);
   console.detail("scene       " + counted(scene.trees.size(), "tree") + " of " +
@@ -213,15 +265,24 @@ void make_forest(const Arguments& arguments, Ranks& ranks) {
   }
 
   std::uint64_t leaf_vertices = 0;
-  const ForestSummary summary =
-      run_forest(scene, options, device, ranks, arguments.folder, [&](const ForestProgress& now) {
-        leaf_vertices = now.leaf_vertices;
-        if (now.tiles == 0) return console.progress(now.stage, 0);
-        words.set_tiles(now.tiles);
-        console.progress(now.stage, now.tiles_done, now.tiles,
-                         per_second(static_cast<double>(leaf_vertices), since(start)) + ", " +
-                             bytes(now.resident_bytes));
-      });
+  ForestProgress last;
+  const auto advance = [&](const ForestProgress& now) {
+    leaf_vertices = now.leaf_vertices;
+    if (now.stage != last.stage || now.tiles_done < last.tiles_done) console.count_anew();
+    last = now;
+    if (now.tiles == 0) return console.progress(now.stage, 0);
+    if (now.stage == "tiles") words.set_tiles(now.tiles);
+    console.progress(now.stage, now.tiles_done, now.tiles,
+                     per_second(static_cast<double>(leaf_vertices), since(start)) + ", " +
+                         bytes(now.resident_bytes));
+  };
+  const ForestSummary summary = [&] {
+    try {
+      return run_forest(scene, options, device, ranks, arguments.folder, advance);
+    } catch (const std::exception&) {
+      rethrow_with(words.still_to_do());
+    }
+  }();
   if (!speaks) return;
   for (const std::string& warning : summary.warnings) console.warn(warning);
   write_report(summary, arguments, options);

@@ -10,7 +10,7 @@
 namespace leafhull::cli {
 namespace {
 
-constexpr std::uint64_t kLeastMemory = std::uint64_t{256} << 20;
+constexpr std::uint64_t kLeastMemory = std::uint64_t{512} << 20;
 constexpr int kMostLevels = 8;
 constexpr int kTileStep = 32, kLargestTile = 512;
 constexpr int kMostParts = 1'000'000;
@@ -87,11 +87,12 @@ std::vector<Flag> work_flags() {
        .value = "SIZE",
        .group = "Work",
        .unit = "bytes, or with K, M, G, T",
-       .range = ">= 256M",
+       .range = ">= 512M",
        .default_value = "4G",
-       .help = "resident memory of a rank, at most",
+       .help = "resident memory of a rank, at most, in a canopy",
        .set =
            [](Arguments& a, const std::string& text) {
+             a.given.insert("memory");
              a.forest.memory = byte_count("--memory", text, kLeastMemory);
            }},
       {.spelling = "--tile",

@@ -22,6 +22,7 @@ struct {
   std::vector<std::string> names;  ///< by rank
   std::string how_to_go_on;
   bool tells_stop = false;
+  bool has_other_hosts = false;  ///< whose ranks may be lost unseen
   std::atomic<std::size_t> tiles = 0;
 } run;
 
@@ -51,6 +52,11 @@ class Line {
   std::size_t size_ = 0;
 };
 
+std::size_t tiles_left() noexcept {
+  const std::size_t tiles = run.tiles;
+  return tiles - std::min<std::size_t>(tiles, run.ranks->last(Sum::tiles));
+}
+
 void tell_why() noexcept {
   Line line;
   line.add("leafhull: ");
@@ -61,10 +67,12 @@ void tell_why() noexcept {
     line.add(run.names[static_cast<std::size_t>(rank)]);
   }
   if (lost == 0 && !run.tells_stop) return;
-  line.add(lost == 0 ? "stopped; " : " died; ");
+  line.add(lost > 0 ? " died" : "stopped");
+  if (lost == 0 && run.has_other_hosts) line.add(", perhaps by a rank of another host");
+  line.add("; ");
   if (run.tiles > 0) {
     line.add("still to do: ");
-    line.add(run.tiles - std::min<std::size_t>(run.tiles, run.ranks->last(Sum::tiles)));
+    line.add(tiles_left());
     line.add(" of ");
     line.add(run.tiles);
     line.add(" tiles; ");
@@ -91,6 +99,9 @@ ForestWords::ForestWords(Ranks& ranks, bool quiet, const std::string& how_to_go_
   }
   run.how_to_go_on = how_to_go_on;
   run.tells_stop = !quiet && mine.host == processes.front().host;  // one host is enough
+  run.has_other_hosts =
+      std::any_of(processes.begin(), processes.end(),
+                  [&](const RankProcess& other) { return other.host != mine.host; });
   run.tiles = 0;
   catch_signals(say_last_words);
 }
@@ -98,5 +109,11 @@ ForestWords::ForestWords(Ranks& ranks, bool quiet, const std::string& how_to_go_
 ForestWords::~ForestWords() { catch_signals(); }
 
 void ForestWords::set_tiles(std::size_t tiles) { run.tiles = tiles; }
+
+std::string ForestWords::still_to_do() const {
+  if (run.tiles == 0) return {};
+  return std::to_string(tiles_left()) + " of " + std::to_string(run.tiles) +
+         " tiles are still to do; " + run.how_to_go_on + ".";
+}
 
 }  // namespace leafhull::cli

@@ -11,7 +11,7 @@ class Ranks;
 namespace leafhull::cli {
 
 /// What a forest's ranks say where a signal ends them: the first on its host to end tells which
-/// others are lost, and how much is still to do. One object at a time.
+/// others of it are lost, and how much is still to do. One object at a time.
 class ForestWords {
  public:
   /// @param how_to_go_on one clause.
@@ -20,7 +20,9 @@ class ForestWords {
   ForestWords(const ForestWords&) = delete;
   ForestWords& operator=(const ForestWords&) = delete;
 
-  void set_tiles(std::size_t tiles);  ///< how many there are in all
+  void set_tiles(std::size_t tiles);  ///< how many there are in all, once they are counted
+  /// How much is still to do, for a rank that an error ends: a sentence; empty before set_tiles().
+  std::string still_to_do() const;
 };
 
 }  // namespace leafhull::cli

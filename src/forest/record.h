@@ -26,7 +26,7 @@ struct TileRecord {
   std::uint64_t leaf_vertices = 0, gathered = 0, evaluated_voxels = 0, dropped_components = 0;
   // Of the run alone, not of the result.
   double seconds = 0;
-  std::uint64_t resident_bytes = 0;  ///< the highest while it was computed
+  std::uint64_t resident_bytes = 0;  ///< once it was computed
   int rank = 0;
 };
 

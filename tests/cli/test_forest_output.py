@@ -111,6 +111,16 @@ class Instances(ForestTest):
         self.assertRegex(result.stderr, r"warning: the model ash has no surface")
         self.assertEqual(list(self.instances(self.out / "apart")), ["oak"])
 
+    def test_a_bound_on_memory_that_does_not_hold_is_warned_about(self):
+        scene = self.stand("ash.glb,0,0,0")
+        for merge, flags, warned in (
+            ("none", ("--memory", "1G"), True),
+            ("none", (), False),
+            ("canopy", ("--memory", "1G"), False),
+        ):
+            result = self.forest(scene, "forest", "--merge", merge, *COARSE, *flags, "--restart")
+            self.assertEqual("warning: --memory bounds" in result.stderr, warned, result.stderr)
+
     def test_it_is_a_forest_that_can_be_resumed(self):
         scene = self.scatter(9)
         self.forest(scene, "apart", "--merge", "none", *COARSE)
@@ -215,6 +225,7 @@ class Reports(ForestTest):
         self.forest(scene, "forest", *flags, "--resume")
         rest = json.loads(report.read_text())
         self.assertEqual(rest["resumed"], len(part["tiles"]))
+        self.assertEqual(len(rest["tiles"]), rest["counts"]["tiles"], "earlier ones too")
         self.assertEqual(rest["remaining"], 0)
 
 

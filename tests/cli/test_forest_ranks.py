@@ -4,6 +4,7 @@
 import os
 import pathlib
 import re
+import resource
 import signal
 import subprocess
 import time
@@ -17,8 +18,15 @@ LOST = re.compile(
     r"leafhull: rank (\d) \(\S+, process (\d+)\) died; still to do: (\d+) of (\d+) tiles; "
     r"the same command with --resume goes on"
 )
+OTHER_HOST = pathlib.Path(__file__).parents[1] / "ranks" / "other_host.sh"
 STOPPED = re.compile(
     r"leafhull: stopped; still to do: \d+ of \d+ tiles; the same command with --resume goes on"
+)
+
+
+FAILED = re.compile(
+    r"leafhull: error: rank 1: cannot write .*\. (\d+) of (\d+) tiles are still to do; "
+    r"the same command with --resume goes on\."
 )
 
 
@@ -42,6 +50,25 @@ def ranks_of(mpirun):
     return found
 
 
+def processes_with(variable, word):
+    """Those of any parent with this variable in their environment and this word in their command."""
+    found = []
+    for folder in pathlib.Path("/proc").iterdir():
+        try:
+            words = (folder / "cmdline").read_bytes().split(b"\0")
+            variables = (folder / "environ").read_bytes().split(b"\0")
+        except OSError:
+            continue
+        if variable.encode() in variables and word.encode() in words:
+            found.append(int(folder.name))
+    return found
+
+
+def has_other_hosts():
+    command = [OTHER_HOST, "north", "hostname"]
+    return subprocess.run(command, capture_output=True, text=True).stdout.strip() == "north"
+
+
 def our_lines(text):
     return [line for line in text.splitlines() if line.startswith("leafhull: ")]
 
@@ -54,9 +81,9 @@ class ForestRanks(CommandTest):
         text = "\n".join(["model,x,y,z", *rows, ""])
         self.scene = self.input("stand.csv", text.encode())
 
-    def command(self, ranks, folder, *flags, scene=None):
+    def command(self, ranks, folder, *flags, scene=None, where=("--oversubscribe",)):
         return [
-            MPIRUN, "--allow-run-as-root", "--oversubscribe", "--bind-to", "none", "-n", str(ranks),
+            MPIRUN, "--allow-run-as-root", "--bind-to", "none", *where, "-n", str(ranks),
             os.environ["LEAFHULL"], "forest", str(scene or self.scene), "-o", str(folder), *flags,
         ]  # fmt: skip
 
@@ -118,10 +145,38 @@ class ForestRanks(CommandTest):
         self.succeed("forest", self.scene, "-o", self.out / "whole", *MANY_TILES)
         self.assertEqual(self.bytes_in(folder), self.bytes_in(self.out / "whole"))
 
-    def test_an_interrupt_is_answered_once(self):
-        process = self.start(4, self.out / "stand", *MANY_TILES)
+    @unittest.skipUnless(has_other_hosts(), "no right to pretend other hosts (unshare --uts)")
+    def test_a_lost_rank_of_another_host(self):
+        where = ("--mca", "plm_rsh_agent", str(OTHER_HOST), "--host", "north:1,south:1")
+        process = self.start_tiles(2, where=where)
+        (victim,) = processes_with("OMPI_COMM_WORLD_RANK=1", str(self.out / "stand"))
+        os.kill(victim, signal.SIGKILL)
+        code, text = self.end(process)
+        self.assertNotEqual(code, 0)
+        (line,) = our_lines(text)
+        self.assertIn("perhaps by a rank of another host; ", line)
+        self.assertRegex(line.replace(", perhaps by a rank of another host", ""), STOPPED)
+
+    def test_an_error_says_how_much_is_still_to_do(self):
+        process = self.start_tiles(2)
+        resource.prlimit(ranks_of(process.pid)[1], resource.RLIMIT_FSIZE, (1000, 1000))
+        code, text = self.end(process)
+        self.assertEqual(code, 5, text)
+        (line,) = our_lines(text)
+        told = FAILED.fullmatch(line)
+        self.assertIsNotNone(told, line)
+        counted = int(told[2]) - int(told[1])
+        self.assertTrue(0 <= self.tiles_done(self.out / "stand") - counted <= 2, line)
+
+    def start_tiles(self, ranks, **options):
+        """Ranks that have begun with tiles."""
+        process = self.start(ranks, self.out / "stand", *MANY_TILES, **options)
         while self.tiles_done(self.out / "stand") < 8 and process.poll() is None:
             time.sleep(0.01)
+        return process
+
+    def test_an_interrupt_is_answered_once(self):
+        process = self.start_tiles(4)
         process.send_signal(signal.SIGINT)
         code, text = self.end(process)
         self.assertNotEqual(code, 0)
@@ -135,6 +190,20 @@ class ForestRanks(CommandTest):
         self.assertEqual(code, 3, text)
         self.assertEqual(len(our_lines(text)), 1, text)
         self.assertRegex(our_lines(text)[0], r"leafhull: error: rank \d: .*no\.glb")
+
+    def test_a_part_is_not_for_ranks(self):
+        code, text = self.end(self.start(2, self.out / "stand", "--tile-range", "1/2"))
+        self.assertEqual(code, 2, text)
+        (line,) = our_lines(text)
+        self.assertRegex(line, r"error: rank \d: --tile-range .*\b2\b.* without mpirun\.")
+        self.assertEqual(self.written(), [])
+        flags = ("--voxel-size", "0.1", "--tile", "32")
+        for part in ("1/2", "2/2"):
+            code, text = self.end(self.start(1, self.out / "stand", *flags, "--tile-range", part))
+            self.assertEqual(code, 0, text)
+        code, text = self.end(self.start(2, self.out / "stand", *flags, "--finish"))
+        self.assertEqual(code, 0, text)
+        self.assertIn("tileset.json", self.written())
 
     def test_ranks_that_were_started_with_different_words(self):
         one = self.command(1, self.out / "stand")

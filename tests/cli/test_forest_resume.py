@@ -4,7 +4,9 @@
 import json
 import os
 import pathlib
+import pty
 import random
+import re
 import resource
 import shutil
 import signal
@@ -71,6 +73,14 @@ class CutOff(ForestTest):
         _, text = process.communicate(timeout=300)
         return subprocess.CompletedProcess(process.args, process.returncode, stderr=text)
 
+    def assert_says_what_is_left(self, result):
+        told = re.search(r"\. (\d+) of (\d+) tiles are still to do; the same command with --resume "
+                         r"goes on\.\n\Z", result.stderr)  # fmt: skip
+        self.assertIsNotNone(told, result.stderr)
+        journals = (self.place / "work").glob("journal-*")
+        done = sum(len(journal.read_text().splitlines()) for journal in journals)
+        self.assertEqual(int(told[2]) - int(told[1]), done)
+
     def assert_one_line(self, result):
         self.assertEqual(result.returncode, 5, result.stderr)
         self.assertRegex(result.stderr, r"\Aleafhull: error: cannot write [^\n]*\n\Z")
@@ -82,7 +92,9 @@ class CutOff(ForestTest):
         for limit in (1000, largest // 2, largest + 1000):
             with self.subTest(limit):
                 shutil.rmtree(self.place)
-                self.assert_one_line(self.run_with_files_up_to(limit))
+                result = self.run_with_files_up_to(limit)
+                self.assert_one_line(result)
+                self.assert_says_what_is_left(result)
                 left = [name for name in files_in(self.place) if name.endswith(".tmp")]
                 self.assertEqual(left, [])
                 self.forest(self.scene, "cut", *self.flags, "--resume")
@@ -123,6 +135,41 @@ class CutOff(ForestTest):
         _, text = process.communicate(timeout=300)
         self.assertEqual(process.returncode, 0, text)
         self.assert_same_files(self.place, whole)
+
+
+class TimeLeft(ForestTest):
+    def bar(self, *arguments):
+        """What standard error shows on a terminal, drawing by drawing."""
+        ours, theirs = pty.openpty()
+        os.set_blocking(ours, True)
+        with open(theirs, "wb") as terminal, open(ours, "rb", buffering=0) as screen:
+            process = subprocess.Popen(
+                [os.environ["LEAFHULL"], *map(str, arguments)], stdout=terminal, stderr=terminal
+            )
+            terminal.close()
+            shown = b""
+            try:
+                while data := screen.read(4096):
+                    shown += data
+            except OSError:  # how Linux says that nobody writes any more
+                pass
+            self.assertEqual(process.wait(timeout=300), 0, shown)
+        return shown.decode().split("\r\033[K")
+
+    def test_what_was_done_before_tells_no_pace(self):
+        """Nor does the pass before the tiles."""
+        scene = self.scatter(60)
+        flags = ("--voxel-size", "0.1", "--tile", "64", "--control-scope", "scene")
+        self.forest(scene, "forest", *flags, "--tile-range", "1/2")
+        (journal,) = (self.out / "forest" / "work").glob("journal-*")
+        done = len(journal.read_text().splitlines())
+        self.assertGreater(done, 4)
+        bar = self.bar("forest", scene, "-o", self.out / "forest", *flags, "--resume")
+        tiles = [line for line in bar if line.startswith("tiles ")]
+        self.assertIn("left", "".join(tiles))
+        first = [line for line in tiles if re.search(rf"\] {done} of ", line)]
+        self.assertEqual(len(first), 1, tiles)
+        self.assertNotIn("left", first[0])
 
 
 class Folders(ForestTest):

@@ -27,8 +27,8 @@ class ForestUsage(CommandTest):
             ("--tile", "16", ["32 to 512"]),
             ("--tile", "544", ["32 to 512"]),
             ("--tile", "100", ["multiple of 32", "96 or 128"]),
-            ("--memory", "255M", ["256 MiB or more"]),
-            ("--memory", "1", ["256 MiB or more"]),
+            ("--memory", "511M", ["512 MiB or more"]),
+            ("--memory", "1", ["512 MiB or more"]),
             ("--memory", "4X", ["is not a size", "4G"]),
             ("--memory", "-4G", ["is not a size"]),
             ("--memory", "nan", ["is not a size"]),
@@ -83,6 +83,39 @@ class ForestUsage(CommandTest):
         self.fail_with(
             5, ["missing"], "forest", self.scene, "-o", self.out, "--report", "missing/r.json"
         )
+
+    def test_names_that_are_the_forests_own(self):
+        stand, own = self.out / "stand", "forest's own"
+        for name in ("manifest.json", "tileset.json", "tiles/0/report.json", "work/report.json"):
+            self.refuse([own, name, "--report"], "--report", stand / name)
+        for name in ("forest.glb", "tiles/0/0_0_0.glb", "work/all.ply"):
+            self.refuse([own, name, "--single"], "--single", stand / name)
+        roundabout = self.folder / "out/../out/stand/work/../manifest.json"
+        self.refuse([own, "--report"], "--report", roundabout)
+        self.fail_with(2, [own, "--report"], "forest", self.scene, "-o", "out/stand",
+                       "--report", "out/stand/manifest.json", cwd=self.folder)  # fmt: skip
+        stand = self.folder / "stand"
+        stand.mkdir()
+        (stand / "manifest.json").write_text("{}")
+        (self.folder / "link").symlink_to(stand)
+        (self.folder / "link.json").symlink_to(stand / "manifest.json")
+        for name in ("link/manifest.json", "link.json"):
+            self.fail_with(2, [own, name, "--report"], "forest", self.scene, "-o", stand,
+                           "--report", self.folder / name)  # fmt: skip
+
+    def test_inputs_under_names_that_are_the_forests_own(self):
+        stand = self.folder / "stand"
+        (stand / "tiles").mkdir(parents=True)
+        for name in ("forest.glb", "tiles/tree.glb"):
+            data = self.tree.read_bytes()
+            (stand / name).write_bytes(data)
+            scene = self.input("own.csv", f"model,x,y,z\nstand/{name},0,0,0\n".encode())
+            for what, given in (("scene", stand / name), ("model", scene)):
+                for merge in ("none", "canopy"):
+                    words = ["forest's own", f"the {what}", name]
+                    flags = ("-o", stand, "--merge", merge, "--restart")
+                    self.fail_with(2, words, "forest", given, *flags)
+            self.assertEqual((stand / name).read_bytes(), data)
 
     def test_a_scene_that_is_not_there(self):
         self.fail_with(3, ["no.csv"], "forest", self.folder / "no.csv", "-o", self.out)

@@ -13,6 +13,7 @@
 #include "forest/instances.h"
 #include "khronos_validator.h"
 #include "leafhull/tree.h"
+#include "load_glb.h"
 #include "output_sample.h"
 
 namespace leafhull::test {
@@ -74,17 +75,6 @@ ModelShape egg(const std::string& name, int rings = 6, Vec3d origin = {}) {
 
 std::string glb_of(const std::vector<ModelShape>& shapes, const std::vector<PlacedTree>& trees) {
   return written([&](std::ostream& stream) { write_instances(shapes, trees, stream); });
-}
-
-tinygltf::Model load(const std::string& bytes) {
-  tinygltf::Model model;
-  std::string error, warning;
-  EXPECT_TRUE(tinygltf::TinyGLTF().LoadBinaryFromMemory(
-      &model, &error, &warning, reinterpret_cast<const unsigned char*>(bytes.data()),
-      static_cast<unsigned>(bytes.size())))
-      << error;
-  EXPECT_EQ(error + warning, "");
-  return model;
 }
 
 template <class Element>
@@ -169,7 +159,7 @@ std::vector<Crown> crowns_of(const tinygltf::Model& model) {
   return crowns;
 }
 
-std::vector<Crown> crowns_of(const std::string& glb) { return crowns_of(load(glb)); }
+std::vector<Crown> crowns_of(const std::string& glb) { return crowns_of(load_glb(glb)); }
 
 /// That the crown is the tree's; `tolerance` in sizes of the crown.
 void expect_crown(const Crown& crown, const PlacedTree& tree, const std::vector<ModelShape>& shapes,
@@ -192,7 +182,7 @@ TEST(Instances, PlaceEachShapeWhereItsTreesStand) {
   RandomTrees random;
   std::vector<PlacedTree> trees;
   for (std::uint32_t i = 0; i < 100; ++i) trees.push_back(random.next(i / 3 % 2));
-  const tinygltf::Model model = load(glb_of(shapes, trees));
+  const tinygltf::Model model = load_glb(glb_of(shapes, trees));
   EXPECT_EQ(model.meshes.size(), 2u);
   EXPECT_EQ(model.extensionsUsed, std::vector<std::string>{"EXT_mesh_gpu_instancing"});
   EXPECT_EQ(model.extensionsRequired, model.extensionsUsed);
@@ -232,7 +222,7 @@ TEST(Instances, KeepTheirPlaceFarAway) {
   RandomTrees random;
   std::vector<PlacedTree> trees;
   for (int i = 0; i < 500; ++i) trees.push_back(random.next(0, 50'000, {1e7 + 0.1, 3e5, -4e6}));
-  const tinygltf::Model model = load(glb_of(shapes, trees));
+  const tinygltf::Model model = load_glb(glb_of(shapes, trees));
   EXPECT_EQ(model.meshes.size(), 1u);
   EXPECT_GT(model.nodes.size(), 10u);
   std::vector<Crown> crowns = crowns_of(model);
@@ -249,7 +239,7 @@ TEST(Instances, OfOneModelShareANodeWhereFloatsSuffice) {
   RandomTrees random;
   std::vector<PlacedTree> trees;
   for (int i = 0; i < 10'000; ++i) trees.push_back(random.next(0, 1000));
-  EXPECT_EQ(load(glb_of({egg("ash")}, trees)).nodes.size(), 1u);
+  EXPECT_EQ(load_glb(glb_of({egg("ash")}, trees)).nodes.size(), 1u);
 }
 
 TEST(Instances, TakeAMeshesOriginIntoTheirPlace) {
@@ -266,7 +256,7 @@ TEST(Instances, ThatMirrorAreNodesOfTheirOwn) {
   const std::vector<PlacedTree> trees{placed(turned, {0, 0, 0}),
                                       placed(times(turned, diagonal({1, 1, -2})), {0.1, 7, 1e7}),
                                       placed(diagonal({-1, -1, -1}), {3, 0, 0})};
-  const tinygltf::Model model = load(glb_of(shapes, trees));
+  const tinygltf::Model model = load_glb(glb_of(shapes, trees));
   ASSERT_EQ(model.nodes.size(), 3u);
   const std::vector<Crown> crowns = crowns_of(model);
   ASSERT_EQ(crowns.size(), 3u);

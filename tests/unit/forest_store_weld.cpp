@@ -6,6 +6,7 @@
 #include "forest/tile_mesh.h"
 #include "unit/forest_store_test.h"
 #include "unit/khronos_validator.h"
+#include "unit/load_glb.h"
 
 namespace leafhull::test {
 namespace {
@@ -46,13 +47,7 @@ Mesh read_ply(const std::string& bytes, bool doubles) {
 
 /// The welded GLB, whose vertices are interleaved.
 Mesh read_welded_glb(const std::string& bytes) {
-  tinygltf::Model model;
-  std::string error, warning;
-  EXPECT_TRUE(tinygltf::TinyGLTF().LoadBinaryFromMemory(
-      &model, &error, &warning, reinterpret_cast<const unsigned char*>(bytes.data()),
-      static_cast<unsigned>(bytes.size())))
-      << error;
-  EXPECT_EQ(warning, "");
+  const tinygltf::Model model = load_glb(bytes);
   const auto& accessors = model.accessors;
   Mesh mesh;
   mesh.positions.resize(accessors.at(0).count);

@@ -5,22 +5,12 @@
 #include "khronos_validator.h"
 #include "leafhull/error.h"
 #include "leafhull/version.h"
+#include "load_glb.h"
 #include "output/writers.h"
 #include "output_sample.h"
 
 namespace leafhull::test {
 namespace {
-
-tinygltf::Model load_glb(const std::string& bytes) {
-  tinygltf::Model model;
-  std::string error, warning;
-  EXPECT_TRUE(tinygltf::TinyGLTF().LoadBinaryFromMemory(
-      &model, &error, &warning, reinterpret_cast<const unsigned char*>(bytes.data()),
-      static_cast<unsigned>(bytes.size())))
-      << error;
-  EXPECT_EQ(error + warning, "");
-  return model;
-}
 
 tinygltf::Model glb_of(const Mesh& mesh) {
   return load_glb(written([&](std::ostream& stream) { write_glb(mesh, stream); }));
