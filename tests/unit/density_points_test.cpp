@@ -40,7 +40,9 @@ TEST(Points, EachComesOnceWithAllKernelsThatReachIt) {
         const PointChunk& chunk = batch.chunks[c];
         const auto list = std::span(batch.kernels).subspan(chunk.first, chunk.end - chunk.first);
         EXPECT_TRUE(std::is_sorted(list.begin(), list.end()));
-        if (!list.empty()) EXPECT_LT(list.back(), near.kernels.size());
+        if (!list.empty()) {
+          EXPECT_LT(list.back(), near.kernels.size());
+        }
         std::set<std::uint32_t> indices;
         for (std::size_t i = c * chunk_points; i < (c + 1) * chunk_points; ++i) {
           const Vec3d at =
