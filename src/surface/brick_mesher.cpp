@@ -130,8 +130,7 @@ Role role_of(const GridCoord& brick, const SampleBox& own) {
   if (!within(brick.x(), own.low.x, own.high.x) || !within(brick.y(), own.low.y, own.high.y) ||
       !within(brick.z(), own.low.z, own.high.z))
     return Role::beside;
-  const bool upper =
-      brick.x() == own.high.x || brick.y() == own.high.y || brick.z() == own.high.z;
+  const bool upper = brick.x() == own.high.x || brick.y() == own.high.y || brick.z() == own.high.z;
   return upper ? Role::upper : Role::own;
 }
 
