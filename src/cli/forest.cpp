@@ -215,9 +215,10 @@ void write_report(const ForestSummary& summary, const Arguments& arguments,
   }
 }
 
-/// Tiles are alike: what one gives back to the heap the next takes, without asking the system
-/// again.
+/// Tiles are alike: what one gives back to the heap the next takes, whatever the thread, without
+/// asking the system again.
 void keep_freed_memory() {
+  mallopt(M_ARENA_MAX, 1);
   mallopt(M_MMAP_THRESHOLD, 32 << 20);  // the most that glibc takes
   mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
 }
