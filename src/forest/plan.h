@@ -15,7 +15,7 @@ namespace leafhull {
 
 /// Cells along a tile where nothing else is asked for.
 inline constexpr int kTileEdge = 128;
-/// Tiles that are in memory together at most.
+/// Tiles that are computed at once, at most.
 inline constexpr int kTilesAtOnce = 2;
 
 /// The tiles of a level and the trees that reach each.

@@ -20,7 +20,7 @@ class Moments {
     const auto n = static_cast<std::int64_t>(std::llround(static_cast<double>(density) * kOne));
     ++count_;
     sum_ += n;
-    squares_ += static_cast<Squares>(n) * n;
+    squares_ += static_cast<Wide>(n) * n;
   }
   void add(const Moments& other) {
     count_ += other.count_;
@@ -35,13 +35,12 @@ class Moments {
 
  private:
   static constexpr double kOne = 1 << 20;
-  __extension__ using Squares = __int128;
+  __extension__ using Wide = __int128;
 
   long double exact_mean() const { return static_cast<long double>(sum_) / count_; }
 
   std::uint64_t count_ = 0;
-  std::int64_t sum_ = 0;
-  Squares squares_ = 0;
+  Wide sum_ = 0, squares_ = 0;
 };
 
 /// Positive floats by their leading bits: 2^16 steps for each power of two.

@@ -90,7 +90,7 @@ class ForestUsage(CommandTest):
             self.refuse([own, name, "--report"], "--report", stand / name)
         for name in ("forest.glb", "tiles/0/0_0_0.glb", "work/all.ply"):
             self.refuse([own, name, "--single"], "--single", stand / name)
-        roundabout = self.folder / "out/../out/stand/work/../manifest.json"
+        roundabout = self.folder / "out/../out/stand/tiles/../manifest.json"
         self.refuse([own, "--report"], "--report", roundabout)
         self.fail_with(2, [own, "--report"], "forest", self.scene, "-o", "out/stand",
                        "--report", "out/stand/manifest.json", cwd=self.folder)  # fmt: skip
