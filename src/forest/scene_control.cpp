@@ -30,7 +30,8 @@ class Moments {
   double mean() const { return static_cast<double>(exact_mean() / kOne); }
   double variance() const {
     const long double mean_of_squares = static_cast<long double>(squares_) / count_;
-    return static_cast<double>((mean_of_squares - exact_mean() * exact_mean()) / kOne / kOne);
+    const long double variance = mean_of_squares - exact_mean() * exact_mean();
+    return static_cast<double>(std::max(variance, 0.0L) / kOne / kOne);  // it may round below 0
   }
 
  private:
