@@ -54,7 +54,9 @@ class SameBytes(ForestTest):
     @unittest.skipUnless(MPIRUN, "leafhull is built without MPI")
     def test_statistics_of_the_scene_over_ranks(self):
         scene = self.scatter(60)
-        flags = (*COARSE, "--tile", "32", "--levels", "2", "--control-scope", "scene")
+        # Crowns so dense that T is none of the densities that many leaves have.
+        flags = (*COARSE, "--tile", "32", "--levels", "2", "--control-scope", "scene",
+                 "--radius-max", "15", "--coverage", "0.7")  # fmt: skip
         self.forest(scene, "alone", *flags)
         for ranks in (2, 3):
             self.under_mpirun(ranks, scene, self.out / f"{ranks}", *flags)
