@@ -14,11 +14,12 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 ROOMS = {
     "input": (("text",), ("tinygltf", "tinyobjloader", "json", "draco", "meshoptimizer", "stb")),
     "leaves": ((), ("eigen",)),
+    "points": (("leaves",), ("eigen", "tbb")),
     "density": ((), ("openvdb", "tbb")),
     "device": (("density",), ("opencl",)),
     "surface": (("density",), ("openvdb", "tbb")),
     "output": (("density", "surface", "text"), ("tinygltf", "openvdb", "json")),
-    "pipeline": (("density", "device", "surface"), ("tbb",)),
+    "pipeline": (("density", "device", "points", "surface"), ("tbb",)),
     "text": ((), ()),
     "process": ((), ()),
     "render": (("text",), ("embree", "openexr", "stb", "tbb")),

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -34,6 +35,20 @@ struct LeafVertex {
   std::uint32_t leaf;  ///< which leaf, below LeafSet::leaf_count
 };
 
+/// Where a kernel of leaf area sits: a part of a leaf, or of leaves that lie together, or a vertex.
+/// The third axis is normal x major. SPEC: 1b.
+struct LeafPoint {
+  Vec3d position;      ///< c_j, model units
+  Vec3f normal;        ///< n_j, unit
+  Vec3f major;         ///< u_j, unit, orthogonal to the normal
+  float radius_major;  ///< R_u, model units
+  float radius_minor;  ///< R_v <= R_u
+  double area;         ///< a_j, model units squared; 0: a vertex, whose kernel has the weight 1
+};
+
+/// The leaves as visible area; only leafhull's own stages look inside.
+struct LeafSheets;
+
 struct LeafSet {
   std::vector<LeafVertex> vertices;  ///< in an order that depends on the geometry alone
   std::size_t leaf_count = 0;
@@ -43,7 +58,9 @@ struct LeafSet {
   std::size_t dropped_leaves = 0;    ///< zero area, no usable normal or not finite
   std::size_t split_components = 0;  ///< components that were not one flat leaf
   double mean_radius_major = 0;      ///< mean R_u over the leaves, model units
+  double area = 0;                   ///< that is visible, one side of it, model units squared
   Box bounds;                        ///< of the vertices
+  std::shared_ptr<const LeafSheets> sheets;  ///< what `area` is of
   std::vector<std::string> warnings;
 };
 

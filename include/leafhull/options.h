@@ -15,8 +15,10 @@ namespace leafhull {
 /// Crown units along the longest side of the leaves' bounding box. SPEC: 4.
 inline constexpr double kCrownUnits = 64;
 
-enum class Style { painterly, thin, fat, luft_deussen };
+enum class Style { painterly, thin, fat, previous, paper_thin, paper_fat, paper_previous };
 enum class Method { isotropic, uncontrolled, controlled };
+/// Where kernels sit: at parts of leaf area, or at leaf vertices, the paper's way. SPEC: 1b.
+enum class PointSource { area, vertices };
 enum class RadiusUnit { crown, leaf, model };
 enum class Spread { stddev, variance };
 enum class DensitySource { exact, grid };
@@ -36,10 +38,12 @@ struct Options {
   std::optional<Method> method;
   std::optional<double> threshold;          ///< T itself
   std::optional<double> threshold_percent;  ///< T as a percentage of m
-  std::optional<double> coverage;           ///< T as a quantile of N over the leaf vertices
+  std::optional<double> coverage;           ///< T as a quantile of N over the leaves
   std::optional<double> radius_max;         ///< R_max in radius_unit
   RadiusUnit radius_unit = RadiusUnit::crown;
   std::optional<double> flatness;  ///< lambda_R
+  std::optional<PointSource> points;
+  std::optional<double> point_spacing;  ///< s, of PointSource::area, over R_max
   int falloff = 2;                 ///< k
   Spread spread = Spread::stddev;
   DensitySource density = DensitySource::exact;
@@ -62,6 +66,7 @@ struct Options {
 /// The names of an enumeration's values, in order.
 std::span<const std::string_view> names(Style);
 std::span<const std::string_view> names(Method);
+std::span<const std::string_view> names(PointSource);
 std::span<const std::string_view> names(RadiusUnit);
 std::span<const std::string_view> names(Spread);
 std::span<const std::string_view> names(DensitySource);
@@ -77,8 +82,8 @@ std::string_view name(Enum value) {
 int resolution_of(Preset preset);
 
 /// `options` with the style's values where nothing was asked for, everything checked. Afterwards
-/// `method`, `radius_max`, `flatness` and `min_component` are set, exactly one of the three
-/// thresholds is, and `resolution` or `voxel_size` is.
+/// `method`, `radius_max`, `flatness`, `points`, `point_spacing` and `min_component` are set, exactly
+/// one of the three thresholds is, and `resolution` or `voxel_size` is.
 /// @throws Error usage: a value out of range, or two options that contradict each other.
 Options resolve(Options options);
 
@@ -91,6 +96,7 @@ struct OptionRow {
       std::variant<bool Options::*, int Options::*, double Options::*,
                    std::optional<int> Options::*, std::optional<double> Options::*,
                    Style Options::*, std::optional<Method> Options::*, RadiusUnit Options::*,
+                   std::optional<PointSource> Options::*,
                    Spread Options::*, DensitySource Options::*, Mesher Options::*,
                    std::optional<Preset> Options::*, std::vector<std::string> Options::*,
                    std::optional<TextureEllipse> Options::*>;

@@ -22,6 +22,7 @@ struct Kernel {
   Vec3d centre;                                     ///< c_j, model units
   Vec3f normal, major;                              ///< n_j, u_j, unit, orthogonal
   float radius_major, radius_minor, radius_normal;  ///< R_u, R_v, R_n, model units, > 0
+  float weight = 1;                                 ///< w_j, > 0
 };
 
 /// A closed triangle mesh, counter-clockwise seen from outside. A vertex is at origin +
@@ -37,7 +38,7 @@ struct Mesh {
 /// The sampled density; only leafhull's own stages look inside.
 class Field;
 
-struct DensityStatistics {  ///< of N_iso over the leaf vertices
+struct DensityStatistics {  ///< of N_iso over the leaf points, by area
   double mean = 0, variance = 0, p1 = 0, p2 = 0;
 };
 
@@ -46,12 +47,13 @@ struct Metrics {
   std::uint64_t dilated_voxels = 0;    ///< inside or on, and without a leaf vertex
   std::uint64_t inside_voxels = 0;     ///< all corners at T or above
   std::uint64_t on_voxels = 0;         ///< some corners
-  std::uint64_t off_site_exact = 0;    ///< leaf vertices with N below T, summed there
+  std::uint64_t off_site_exact = 0;    ///< places on the leaves with N below T, summed there
   std::uint64_t off_site_sampled = 0;  ///< the same, N interpolated from the lattice
 };
 
+/// Places on the leaves are their vertices or, with PointSource::area, samples of equal area.
 struct Counts {
-  std::uint64_t leaves = 0, leaf_vertices = 0, dropped_leaves = 0, split_components = 0;
+  std::uint64_t leaves = 0, leaf_vertices = 0, leaf_points = 0, dropped_leaves = 0, split_components = 0;
   std::uint64_t evaluated_voxels = 0, evaluated_pairs = 0;
   std::uint64_t mesh_vertices = 0, mesh_triangles = 0, components = 0, dropped_components = 0;
 };
@@ -71,6 +73,8 @@ struct Report {
   std::string device;
   Counts counts;
   DensityStatistics density;
+  double leaf_area = 0;  ///< that is visible, model units squared
+  double covered = 0;    ///< the share of the places on the leaves that lies inside, summed there
   Metrics metrics;
   std::vector<StageTime> seconds;       ///< in order, the total last
   std::uint64_t peak_memory_bytes = 0;  ///< of the process; the caller's to set
@@ -79,7 +83,7 @@ struct Report {
 
 struct Shape {
   Mesh mesh;
-  std::vector<Kernel> kernels;           ///< one per leaf vertex, in LeafSet order
+  std::vector<Kernel> kernels;           ///< one per leaf point
   std::vector<float> isotropic_density;  ///< N_iso(c_j), one per kernel
   std::shared_ptr<const Field> field;
   Report report;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace leafhull {
 namespace {
@@ -10,25 +11,37 @@ namespace {
 /// A radius is never below this share of R_max. SPEC: 1.
 constexpr double kSmallestRadius = 1e-3;
 
-Kernel kernel_at(const LeafVertex& leaf, Vec3d radii) {
+Kernel kernel_at(const LeafPoint& leaf, Vec3d radii, int falloff) {
+  // A kernel's integral over its own plane is pi R_u R_v / (k + 1).
+  const double weight =
+      leaf.area > 0 ? (falloff + 1) * leaf.area / (std::numbers::pi * radii.x * radii.y) : 1;
   return {leaf.position,
           leaf.normal,
           leaf.major,
           static_cast<float>(radii.x),
           static_cast<float>(radii.y),
-          static_cast<float>(radii.z)};
+          static_cast<float>(radii.z),
+          static_cast<float>(weight)};
 }
 
 }  // namespace
 
-DensityStatistics density_statistics(std::span<const float> isotropic_density,
+DensityStatistics density_statistics(std::span<const LeafPoint> leaves,
+                                     std::span<const float> isotropic_density,
                                      const Options& resolved) {
-  const auto count = static_cast<double>(isotropic_density.size());
+  const auto weight = [&](std::size_t j) { return leaves[j].area > 0 ? leaves[j].area : 1.0; };
   DensityStatistics s;
-  for (const float n : isotropic_density) s.mean += n;
-  s.mean /= count;
-  for (const float n : isotropic_density) s.variance += (n - s.mean) * (n - s.mean);
-  return band(s.mean, s.variance / count, resolved);
+  double all = 0;
+  for (std::size_t j = 0; j < leaves.size(); ++j) {
+    s.mean += weight(j) * static_cast<double>(isotropic_density[j]);
+    all += weight(j);
+  }
+  s.mean /= all;
+  for (std::size_t j = 0; j < leaves.size(); ++j) {
+    const double above = static_cast<double>(isotropic_density[j]) - s.mean;
+    s.variance += weight(j) * above * above;
+  }
+  return band(s.mean, s.variance / all, resolved);
 }
 
 DensityStatistics band(double mean, double variance, const Options& resolved) {
@@ -39,11 +52,12 @@ DensityStatistics band(double mean, double variance, const Options& resolved) {
           .p2 = mean + resolved.band_high * spread};
 }
 
-std::vector<Kernel> isotropic_kernels(std::span<const LeafVertex> leaves, double radius_max) {
+std::vector<Kernel> isotropic_kernels(std::span<const LeafPoint> leaves, double radius_max,
+                                      int falloff) {
   std::vector<Kernel> kernels;
   kernels.reserve(leaves.size());
-  for (const LeafVertex& leaf : leaves) {
-    kernels.push_back(kernel_at(leaf, {radius_max, radius_max, radius_max}));
+  for (const LeafPoint& leaf : leaves) {
+    kernels.push_back(kernel_at(leaf, {radius_max, radius_max, radius_max}, falloff));
   }
   return kernels;
 }
@@ -54,7 +68,7 @@ double anisotropy(double n, const DensityStatistics& statistics) {
   return (n - statistics.p1) / (statistics.p2 - statistics.p1);
 }
 
-std::vector<Kernel> controlled_kernels(std::span<const LeafVertex> leaves,
+std::vector<Kernel> controlled_kernels(std::span<const LeafPoint> leaves,
                                        std::span<const float> isotropic_density,
                                        const DensityStatistics& statistics, double radius_max,
                                        const Options& resolved) {
@@ -67,20 +81,21 @@ std::vector<Kernel> controlled_kernels(std::span<const LeafVertex> leaves,
   return kernels;
 }
 
-Kernel controlled_kernel(const LeafVertex& leaf, float density, const DensityStatistics& statistics,
+Kernel controlled_kernel(const LeafPoint& leaf, float density, const DensityStatistics& statistics,
                          double radius_max, const Options& resolved) {
   if (resolved.method == Method::isotropic) {
-    return kernel_at(leaf, {radius_max, radius_max, radius_max});
+    return kernel_at(leaf, {radius_max, radius_max, radius_max}, resolved.falloff);
   }
   const double share =
       resolved.method == Method::uncontrolled ? 1 : anisotropy(density, statistics);
   const auto radius = [&](double of_leaf) {
     const double r = radius_max + (of_leaf - radius_max) * share;
-    return std::max(r, kSmallestRadius * radius_max);
+    return std::clamp(r, kSmallestRadius * radius_max, radius_max);
   };
   const double minor = leaf.radius_minor;
   return kernel_at(leaf,
-                   {radius(leaf.radius_major), radius(minor), radius(*resolved.flatness * minor)});
+                   {radius(leaf.radius_major), radius(minor), radius(*resolved.flatness * minor)},
+                   resolved.falloff);
 }
 
 double threshold_for_coverage(std::span<const float> density, double coverage) {

@@ -10,28 +10,32 @@
 
 namespace leafhull {
 
-/// Mean and variance of N_iso over the leaf vertices and the densities p1 and p2 between which
-/// kernels go from isotropic to the shape of their leaf. Source: Eqs. (9), (10); the paper prints
+/// Mean and variance of N_iso over the leaf points, by their area, and the densities p1 and p2
+/// between which kernels go from isotropic to the shape of their leaf. Source: Eqs. (9), (10); the paper prints
 /// the variance for the spread (SPEC: 3, open point).
-DensityStatistics density_statistics(std::span<const float> isotropic_density,
+DensityStatistics density_statistics(std::span<const LeafPoint> leaves,
+                                     std::span<const float> isotropic_density,
                                      const Options& resolved);
 
 /// The same from a mean and a variance.
 DensityStatistics band(double mean, double variance, const Options& resolved);
 
-/// The kernels that measure N_iso: radius `radius_max` (model units) in every direction.
-std::vector<Kernel> isotropic_kernels(std::span<const LeafVertex> leaves, double radius_max);
+/// The kernels that measure N_iso: radius `radius_max` (model units) in every direction. A kernel of
+/// leaf area a has the weight (k + 1) a / (pi R_u R_v), so that N counts layers of leaf; one at a
+/// vertex has 1. SPEC: 2.
+std::vector<Kernel> isotropic_kernels(std::span<const LeafPoint> leaves, double radius_max,
+                                      int falloff);
 
 /// The kernels of the chosen method: isotropic, the leaf's own radii, or between the two by the
-/// density at each leaf vertex. `isotropic_density` has one value per leaf vertex; `radius_max` is
-/// in model units. Source: Eqs. (7), (8).
-std::vector<Kernel> controlled_kernels(std::span<const LeafVertex> leaves,
+/// density at each leaf point; none above R_max. `isotropic_density` has one value per leaf point;
+/// `radius_max` is in model units. Source: Eqs. (7), (8).
+std::vector<Kernel> controlled_kernels(std::span<const LeafPoint> leaves,
                                        std::span<const float> isotropic_density,
                                        const DensityStatistics& statistics, double radius_max,
                                        const Options& resolved);
 
-/// One of them, for a leaf vertex with N_iso = `density` there.
-Kernel controlled_kernel(const LeafVertex& leaf, float density, const DensityStatistics& statistics,
+/// One of them, for a leaf point with N_iso = `density` there.
+Kernel controlled_kernel(const LeafPoint& leaf, float density, const DensityStatistics& statistics,
                          double radius_max, const Options& resolved);
 
 /// The share of anisotropy at density n, 0 at p1 and below to 1 at p2 and above. Source: Eq. (8).

@@ -66,7 +66,9 @@ class Place {
     return density(wide,
                    [](const ForestModel& model, std::size_t j, std::size_t) {
                      const double r = model.radius_max;
-                     return isotropic_kernels(std::span(model.leaves).subspan(j, 1), r).front();
+                     return isotropic_kernels(std::span(model.leaves).subspan(j, 1), r,
+                                              level_.options.falloff)
+                         .front();
                    })
         .at(points);
   }
@@ -77,11 +79,22 @@ class Place {
     return points;
   }
 
-  /// The leaf vertices in the tile.
-  std::vector<Vec3d> own_centres(std::span<const KernelRun> runs) const {
-    std::vector<Vec3d> points = local_centres(runs);
-    std::erase_if(points, [&](Vec3d p) { return !own().meets({cell_of(p), 1}); });
-    return points;
+  struct Centres {
+    std::vector<Vec3d> points;
+    std::vector<std::uint64_t> weights;
+  };
+
+  /// The leaf points in the tile.
+  Centres own_centres(std::span<const KernelRun> runs) const {
+    const std::vector<Vec3d> points = local_centres(runs);
+    const std::vector<std::uint64_t> weights = weights_of(scene_, level_, runs);
+    Centres centres;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (!own().meets({cell_of(points[i]), 1})) continue;
+      centres.points.push_back(points[i]);
+      centres.weights.push_back(weights[i]);
+    }
+    return centres;
   }
 
  private:
@@ -92,6 +105,13 @@ class Place {
   Lattice lattice_;
 };
 
+std::vector<WeightedDensity> weighted(std::span<const float> densities,
+                                      std::span<const std::uint64_t> weights) {
+  std::vector<WeightedDensity> pairs;
+  for (std::size_t i = 0; i < densities.size(); ++i) pairs.push_back({densities[i], weights[i]});
+  return pairs;
+}
+
 }  // namespace
 
 TileSurface compute_tile(const Scene& scene, const ForestLevel& level, const TileTask& task,
@@ -101,7 +121,7 @@ TileSurface compute_tile(const Scene& scene, const ForestLevel& level, const Til
   const std::vector<KernelRun> runs = place.runs_near(place.box_of(around));
   TileSurface surface;
   surface.gathered = count(runs);
-  surface.leaf_vertices = place.own_centres(runs).size();
+  surface.leaf_vertices = place.own_centres(runs).points.size();
   if (runs.empty()) return surface;
 
   DensityFunction density = place.density(runs);
@@ -115,20 +135,21 @@ TileSurface compute_tile(const Scene& scene, const ForestLevel& level, const Til
   return surface;
 }
 
-std::vector<float> isotropic_density_in(const Scene& scene, const ForestLevel& level,
+std::vector<WeightedDensity> isotropic_density_in(const Scene& scene, const ForestLevel& level,
+                                                  const TileTask& task, Device& device) {
+  const Place place(scene, level, task, device);
+  const std::vector<KernelRun> runs = place.runs_near(place.box_of(place.own()));
+  const auto [points, weights] = place.own_centres(runs);
+  return weighted(place.isotropic_at(points, runs), weights);
+}
+
+std::vector<WeightedDensity> density_in(const Scene& scene, const ForestLevel& level,
                                         const TileTask& task, Device& device) {
   const Place place(scene, level, task, device);
   const std::vector<KernelRun> runs = place.runs_near(place.box_of(place.own()));
-  return place.isotropic_at(place.own_centres(runs), runs);
-}
-
-std::vector<float> density_in(const Scene& scene, const ForestLevel& level, const TileTask& task,
-                              Device& device) {
-  const Place place(scene, level, task, device);
-  const std::vector<KernelRun> runs = place.runs_near(place.box_of(place.own()));
-  const std::vector<Vec3d> points = place.own_centres(runs);
+  const auto [points, weights] = place.own_centres(runs);
   if (points.empty()) return {};
-  return place.density(runs).at(points);
+  return weighted(place.density(runs).at(points), weights);
 }
 
 }  // namespace leafhull

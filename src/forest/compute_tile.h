@@ -24,12 +24,12 @@ struct TileTask {
 TileSurface compute_tile(const Scene& scene, const ForestLevel& level, const TileTask& task,
                          Device& device);
 
-/// N_iso, neighbours included, at the leaf vertices in a tile.
-std::vector<float> isotropic_density_in(const Scene& scene, const ForestLevel& level,
-                                        const TileTask& task, Device& device);
+/// N_iso, neighbours included, at the leaf points in a tile.
+std::vector<WeightedDensity> isotropic_density_in(const Scene& scene, const ForestLevel& level,
+                                                  const TileTask& task, Device& device);
 
-/// N at the leaf vertices in a tile.
-std::vector<float> density_in(const Scene& scene, const ForestLevel& level, const TileTask& task,
-                              Device& device);
+/// N at the leaf points in a tile.
+std::vector<WeightedDensity> density_in(const Scene& scene, const ForestLevel& level,
+                                        const TileTask& task, Device& device);
 
 }  // namespace leafhull

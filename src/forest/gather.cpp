@@ -77,6 +77,16 @@ std::vector<Vec3d> centres_of(const Scene& scene, const ForestLevel& level,
   return centres;
 }
 
+std::vector<std::uint64_t> weights_of(const Scene& scene, const ForestLevel& level,
+                                      std::span<const KernelRun> runs) {
+  std::vector<std::uint64_t> weights(count(runs));
+  for_each_kernel(scene, level, runs,
+                  [&](const TreeMap& map, const ForestModel& model, std::size_t j, std::size_t at) {
+                    weights[at] = weight_of(model.leaves[j], map.area(), level);
+                  });
+  return weights;
+}
+
 KernelSet placed_kernels(const Scene& scene, const ForestLevel& level,
                          std::span<const KernelRun> runs, const Lattice& lattice,
                          const KernelOf& kernel) {

@@ -28,6 +28,10 @@ std::size_t count(std::span<const KernelRun> runs);
 std::vector<Vec3d> centres_of(const Scene& scene, const ForestLevel& level,
                               std::span<const KernelRun> runs);
 
+/// How much each counts (weight_of).
+std::vector<std::uint64_t> weights_of(const Scene& scene, const ForestLevel& level,
+                                      std::span<const KernelRun> runs);
+
 /// Which kernel of the model stands at place `j` of it and `at` of all runs.
 using KernelOf = std::function<Kernel(const ForestModel& model, std::size_t j, std::size_t at)>;
 

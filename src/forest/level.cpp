@@ -18,15 +18,17 @@ namespace leafhull {
 namespace {
 
 constexpr std::uint32_t kGroup = 64;
+/// Shares of leaf area are counted in steps of 2^-40, areas in steps of the mean one over 2^10.
+constexpr int kShareBits = 40, kAreaBits = 10;
 /// A model is not thinned below this many leaf vertices.
 constexpr std::size_t kFewest = 64;
 /// Along a model whose volume is taken, so that this needs little memory.
 constexpr double kMostVoxels = 128;
 
 /// The leaf vertices of a level; those of a model are in Morton order, so that every n-th is spread
-/// evenly.
-LeafSet thinned(const LeafSet& leaves, int level) {
-  if (level == 0) return leaves;
+/// evenly. Parts of leaf area need no thinning: they grow with R_max.
+LeafSet thinned(const LeafSet& leaves, int level, PointSource points) {
+  if (level == 0 || points == PointSource::area) return leaves;
   LeafSet few = leaves;
   few.vertices.clear();
   const std::size_t most = std::max<std::size_t>(1, leaves.vertices.size() / kFewest);
@@ -73,33 +75,40 @@ Options alone(const LeafSet& leaves, int level, Options resolved) {
 ForestModel prepare_model(const LeafSet& all, int level, const Options& resolved, Device& device) {
   const Progress no_progress;
   Stopwatch watch(no_progress);
-  const LeafSet leaves = thinned(all, level);
+  const LeafSet leaves = thinned(all, level, *resolved.points);
   Stages stages(leaves, device, watch);
   Report report;
   report.options = alone(all, level, resolved);
   stages.prepare(report);
 
   ForestModel model;
-  model.leaves = leaves.vertices;
   model.kernels = stages.take_kernels();
   model.isotropic_density = stages.take_isotropic_density();
   model.density = stages.take_density_there();
+  LeafPoints points = stages.take_points();
+  model.leaves = std::move(points.points);
+  model.area = points.area;
   model.radius_max = report.radius_max_model;
   model.groups = groups_of(model.kernels);
   for (const Kernel& k : model.kernels) model.bounds.include(k.centre);
   model.reach = report.radius_max_model;
-  for (const LeafVertex& leaf : leaves.vertices) {  // what control may give it
-    model.reach = std::max(model.reach, static_cast<double>(leaf.radius_major));
-  }
   return model;
+}
+
+std::uint64_t whole(double weight) {
+  return std::max<std::uint64_t>(1, static_cast<std::uint64_t>(std::llround(weight)));
 }
 
 double weighted_mean(const std::vector<ForestModel>& models, std::span<const ModelUse> uses) {
   double sum = 0, count = 0;
   for (std::size_t m = 0; m < models.size(); ++m) {
-    const double trees = static_cast<double>(uses[m].trees);
-    for (const float n : models[m].isotropic_density) sum += trees * static_cast<double>(n);
-    count += trees * static_cast<double>(models[m].isotropic_density.size());
+    const ForestModel& model = models[m];
+    for (std::size_t j = 0; j < model.leaves.size(); ++j) {
+      const double area = model.leaves[j].area;
+      const double weight = area > 0 ? area * uses[m].area : static_cast<double>(uses[m].trees);
+      sum += weight * static_cast<double>(model.isotropic_density[j]);
+      count += weight;
+    }
   }
   return sum / count;
 }
@@ -108,9 +117,19 @@ double threshold_of(const ForestLevel& level, std::span<const ModelUse> uses,
                     const ForestLevel* finest) {
   const Options& options = level.options;
   if (options.coverage) {
+    double all_area = 0;
+    for (std::size_t m = 0; m < level.models.size(); ++m) {
+      all_area += level.models[m].area * uses[m].area;
+    }
     std::vector<WeightedDensity> densities;
     for (std::size_t m = 0; m < level.models.size(); ++m) {
-      for (const float n : level.models[m].density) densities.push_back({n, uses[m].trees});
+      const ForestModel& model = level.models[m];
+      std::uint64_t weight = uses[m].trees;
+      if (model.area > 0) {
+        const double share = model.area * uses[m].area / all_area;
+        weight = whole(std::ldexp(share / static_cast<double>(model.density.size()), kShareBits));
+      }
+      for (const float n : model.density) densities.push_back({n, weight});
     }
     return threshold_for_coverage(densities, *options.coverage);
   }
@@ -149,6 +168,7 @@ std::vector<ModelUse> model_uses(const Scene& scene) {
     use.smallest_volume =
         use.trees == 0 ? map.volume() : std::min(use.smallest_volume, map.volume());
     use.largest = std::max(use.largest, map.stretch());
+    use.area += map.area();
     ++use.trees;
   }
   return uses;
@@ -191,10 +211,21 @@ ForestLevel prepare_level(int number, std::span<const LeafSet> models,
     level.reach = std::max(level.reach, level.models[m].reach * uses[m].largest);
     radius_max = std::max(radius_max, level.models[m].radius_max * uses[m].largest);
   }
+  double points = 0;
+  for (const ForestModel& model : level.models) {
+    level.area_unit += model.area;
+    points += static_cast<double>(model.leaves.size());
+  }
+  if (points > 0) level.area_unit /= points;
   level.threshold = threshold_of(level, uses, finest);
   // A voxel, and what R_max has grown by since level 0.
   level.error = level.voxel_size + radius_max * (1 - std::ldexp(1.0, -number));
   return level;
+}
+
+std::uint64_t weight_of(const LeafPoint& leaf, double growth, const ForestLevel& level) {
+  if (leaf.area == 0) return 1;
+  return whole(std::ldexp(leaf.area * growth / level.area_unit, kAreaBits));
 }
 
 ExactVolume least_volume(const ForestLevel& level, std::span<const ModelUse> uses, Device& device) {

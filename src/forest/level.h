@@ -23,9 +23,11 @@ struct KernelGroup {
 
 /// A tree model as it is placed, at one level of abstraction, model units.
 struct ForestModel {
-  std::vector<LeafVertex> leaves;
-  std::vector<Kernel> kernels;  ///< one per leaf vertex; their radii controlled within the model
-  std::vector<float> isotropic_density, density;  ///< N_iso and N there, of the tree alone
+  std::vector<LeafPoint> leaves;
+  std::vector<Kernel> kernels;  ///< one per leaf point; their radii controlled within the model
+  std::vector<float> isotropic_density;  ///< N_iso there, of the tree alone
+  std::vector<float> density;            ///< N at the places on its leaves, of the tree alone
+  double area = 0;                       ///< of its leaf points; 0 where they are vertices
   double radius_max = 0;                          ///< R_max
   std::vector<KernelGroup> groups;
   Box bounds;        ///< of the centres
@@ -48,12 +50,14 @@ struct ForestLevel {
   /// Of ControlScope::scene: of N_iso over all trees, their neighbours included.
   std::optional<DensityStatistics> scene_statistics;
   ExactVolume least = 0;  ///< twelve times the least volume that a piece of surface may have
+  double area_unit = 0;   ///< the mean area of leaf points, as their models have it; 0: vertices
   double error = 0;       ///< how far the surface may be from the finest, scene units
 };
 
 /// How often each model is placed, and the trees' extremes.
 struct ModelUse {
   std::uint64_t trees = 0;
+  double area = 0;             ///< the sum of the factors by which areas grow
   double largest = 0;          ///< the largest stretch
   double smallest_volume = 0;  ///< the smallest factor of volumes
 };
@@ -80,12 +84,17 @@ ForestLevel prepare_level(int level, std::span<const LeafSet> models,
 /// tree, standing alone. Computes the surface of every model.
 ExactVolume least_volume(const ForestLevel& level, std::span<const ModelUse> uses, Device& device);
 
-/// T for a coverage of weighted densities, which are sorted: as threshold_for_coverage where all
-/// weights are one.
+/// A density, and how much it counts: whole numbers, whose sums do not depend on their order.
 struct WeightedDensity {
   float density;
   std::uint64_t weight;
 };
+
+/// How much a leaf point counts whose area grows by `growth`: by its area, a vertex for one.
+std::uint64_t weight_of(const LeafPoint& leaf, double growth, const ForestLevel& level);
+
+/// T for a coverage of weighted densities, which are sorted: as threshold_for_coverage where all
+/// weights are one.
 double threshold_for_coverage(std::vector<WeightedDensity>& densities, double coverage);
 
 }  // namespace leafhull

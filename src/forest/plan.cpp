@@ -76,7 +76,7 @@ double bytes_of_models(std::span<const ForestLevel> levels) {
   for (const ForestLevel& level : levels) {
     for (const ForestModel& model : level.models) {
       bytes += static_cast<double>(model.leaves.size()) *
-               (sizeof(LeafVertex) + sizeof(Kernel) + 2 * sizeof(float));
+               (sizeof(LeafPoint) + sizeof(Kernel) + 2 * sizeof(float));
     }
   }
   return bytes;

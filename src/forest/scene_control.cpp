@@ -16,11 +16,12 @@ namespace {
 /// Sums over densities N_iso that depend on neither their order nor who adds them.
 class Moments {
  public:
-  void add(float density) {
-    const auto n = static_cast<std::int64_t>(std::llround(static_cast<double>(density) * kOne));
-    ++count_;
-    sum_ += n;
-    squares_ += static_cast<Wide>(n) * n;
+  void add(const WeightedDensity& d) {
+    const auto n = static_cast<std::int64_t>(std::llround(static_cast<double>(d.density) * kOne));
+    const auto weight = static_cast<Wide>(d.weight);
+    count_ += d.weight;
+    sum_ += weight * n;
+    squares_ += weight * n * n;
   }
   void add(const Moments& other) {
     count_ += other.count_;
@@ -49,9 +50,9 @@ class Histogram {
  public:
   Histogram() : counts_(kBins, 0) {}
 
-  void add(float density) {
-    const std::uint32_t bits = std::bit_cast<std::uint32_t>(std::max(density, 0.0f));
-    ++counts_[bits < kFirst ? 0 : std::min((bits - kFirst) >> kDropped, kBins - 1)];
+  void add(const WeightedDensity& d) {
+    const std::uint32_t bits = std::bit_cast<std::uint32_t>(std::max(d.density, 0.0f));
+    counts_[bits < kFirst ? 0 : std::min((bits - kFirst) >> kDropped, kBins - 1)] += d.weight;
   }
 
   /// The highest lower end of a bin that has at least `share` of all at or above it.
@@ -110,7 +111,7 @@ void control_over_scene(const Scene& scene, const TilePlan& plan, int edge,
   const auto task = [&](std::size_t t) { return TileTask{plan.tiles()[t], edge, plan.trees(t)}; };
   Moments mine;
   for_each_tile(plan, ranks, advance, [&](std::size_t t) {
-    for (const float n : isotropic_density_in(scene, level, task(t), device)) mine.add(n);
+    for (const WeightedDensity& n : isotropic_density_in(scene, level, task(t), device)) mine.add(n);
   });
   const Moments moments = together(mine, ranks);
   level.scene_statistics = band(moments.mean(), moments.variance(), level.options);
@@ -121,7 +122,7 @@ void control_over_scene(const Scene& scene, const TilePlan& plan, int edge,
   }
   Histogram histogram;
   for_each_tile(plan, ranks, advance, [&](std::size_t t) {
-    for (const float n : density_in(scene, level, task(t), device)) histogram.add(n);
+    for (const WeightedDensity& n : density_in(scene, level, task(t), device)) histogram.add(n);
   });
   ranks.sum(histogram.counts());
   level.threshold = histogram.quantile(*level.options.coverage);

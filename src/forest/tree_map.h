@@ -22,6 +22,8 @@ class TreeMap {
   double stretch() const { return stretch_; }
   /// By how much volumes grow, >= 0.
   double volume() const { return volume_; }
+  /// By how much areas grow, whatever way they face.
+  double area() const { return scale_ * scale_; }
 
  private:
   Vec3d linear(Vec3d p) const { return {dot(x_, p), dot(y_, p), dot(z_, p)}; }

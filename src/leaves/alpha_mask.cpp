@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "leaves/convex_polygon.h"
+
 namespace leafhull {
 namespace {
 
@@ -28,11 +30,20 @@ std::pair<double, double> texel_range(double low, double high, int size) {
 }  // namespace
 
 AlphaMask::AlphaMask(const Material& material, const Image& image)
-    : image_(&image), wrap_u_(material.wrap_u), wrap_v_(material.wrap_v) {
+    : width_(image.width),
+      height_(image.height),
+      wrap_u_(material.wrap_u),
+      wrap_v_(material.wrap_v),
+      kept_(image.rgba.size() / 4) {
   const double cutoff =
       material.alpha_mode == AlphaMode::blend ? kBlendCutoff : material.alpha_cutoff;
-  for (int alpha = 0; alpha < 256; ++alpha) {
-    kept_[alpha] = alpha / 255.0 * material.base_color[3] >= cutoff;
+  std::array<bool, 256> keeps{};  // by alpha
+  for (std::size_t alpha = 0; alpha < keeps.size(); ++alpha) {
+    keeps[alpha] = static_cast<double>(alpha) / 255.0 * material.base_color[3] >= cutoff;
+  }
+  for (std::size_t texel = 0; texel < kept_.size(); ++texel) {
+    kept_[texel] = keeps[image.rgba[4 * texel + 3]];
+    kept_count_ += kept_[texel];
   }
 }
 
@@ -41,15 +52,55 @@ std::optional<AlphaMask> AlphaMask::of(const Material& material, const std::vect
   const Image& image = images[material.base_color_image];
   if (image.empty()) return {};
   AlphaMask mask(material, image);
-  for (std::size_t alpha = 3; alpha < image.rgba.size(); alpha += 4) {
-    if (!mask.kept_[image.rgba[alpha]]) return mask;
+  if (mask.kept_count_ == mask.kept_.size()) return {};
+  return mask;
+}
+
+bool AlphaMask::keeps_texel(std::int64_t x, std::int64_t y) const {
+  const std::int64_t row = wrapped(y, height_, wrap_v_) * width_;
+  return kept_[static_cast<std::size_t>(row + wrapped(x, width_, wrap_u_))] != 0;
+}
+
+bool AlphaMask::keeps(Vec2d uv) const {
+  return keeps_texel(static_cast<std::int64_t>(std::floor(uv.x * width_)),
+                     static_cast<std::int64_t>(std::floor(uv.y * height_)));
+}
+
+KeptPart AlphaMask::kept_part(const std::array<Vec2d, 3>& triangle) const {
+  ConvexPolygon all;
+  Vec2d middle;
+  for (const Vec2d uv : triangle) {
+    all.push_back({uv.x * width_, uv.y * height_});
+    middle = {middle.x + uv.x / 3, middle.y + uv.y / 3};
   }
-  return {};
+  const PolygonMoments whole = moments_of(all);
+  const double texels = std::abs(whole.area);
+  if (texels == 0) return {keeps(middle) ? 1.0 : 0.0, middle};
+  const auto [low, high] = extent(all);
+  if (!((high.x - low.x) * (high.y - low.y) <= kMostTexels)) {
+    return {static_cast<double>(kept_count_) / static_cast<double>(kept_.size()), middle};
+  }
+  PolygonMoments kept;
+  const auto first = [](double v) { return static_cast<std::int64_t>(std::floor(v)); };
+  for (std::int64_t y = first(low.y); static_cast<double>(y) < high.y; ++y) {
+    const auto top = static_cast<double>(y);
+    const ConvexPolygon row = clip(all, &Vec2d::y, top, top + 1);
+    if (row.empty()) continue;
+    const auto [row_low, row_high] = extent(row);
+    for (std::int64_t x = first(row_low.x); static_cast<double>(x) < row_high.x; ++x) {
+      if (!keeps_texel(x, y)) continue;
+      const auto left = static_cast<double>(x);
+      kept += moments_of(clip(row, &Vec2d::x, left, left + 1));
+    }
+  }
+  if (kept.area == 0) return {0, middle};
+  return {std::min(1.0, std::abs(kept.area) / texels),
+          {kept.first.x / kept.area / width_, kept.first.y / kept.area / height_}};
 }
 
 std::optional<TextureEllipse> AlphaMask::ellipse(const UvBox& box) {
-  const auto [left, right] = texel_range(box.low.x, box.high.x, image_->width);
-  const auto [top, bottom] = texel_range(box.low.y, box.high.y, image_->height);
+  const auto [left, right] = texel_range(box.low.x, box.high.x, width_);
+  const auto [top, bottom] = texel_range(box.low.y, box.high.y, height_);
   const double width = right - left + 1;
   const double height = bottom - top + 1;
   constexpr double kFarthest = 1e15;
@@ -65,20 +116,20 @@ std::optional<TextureEllipse> AlphaMask::ellipse(const UvBox& box) {
 }
 
 std::optional<TextureEllipse> AlphaMask::moments(const Texels& texels) const {
-  const Eigen::Array2d size(image_->width, image_->height);
+  const Eigen::Array2d size(width_, height_);
   const Eigen::Array2d middle(0.5 * static_cast<double>(texels.left + texels.right),
                               0.5 * static_cast<double>(texels.top + texels.bottom));
-  const bool wraps = texels.left < 0 || texels.right >= image_->width;
+  const bool wraps = texels.left < 0 || texels.right >= width_;
   // About the middle all coordinates are multiples of a half: the sums are exact.
   double count = 0;
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
   Eigen::Matrix2d squares = Eigen::Matrix2d::Zero();
   for (std::int64_t y = texels.top; y <= texels.bottom; ++y) {
-    const std::int64_t row = wrapped(y, image_->height, wrap_v_) * image_->width;
+    const std::int64_t row = wrapped(y, height_, wrap_v_) * width_;
     double in_row = 0, sum_x = 0, sum_xx = 0;
     for (std::int64_t x = texels.left; x <= texels.right; ++x) {
-      const std::int64_t column = wraps ? wrapped(x, image_->width, wrap_u_) : x;
-      if (!kept_[image_->rgba[4 * (row + column) + 3]]) continue;
+      const std::int64_t column = wraps ? wrapped(x, width_, wrap_u_) : x;
+      if (!kept_[static_cast<std::size_t>(row + column)]) continue;
       const double px = static_cast<double>(x) - middle[0];
       ++in_row;
       sum_x += px;

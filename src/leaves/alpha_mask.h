@@ -16,12 +16,25 @@ struct UvBox {
   Vec2d low, high;
 };
 
+/// How much of a triangle in texture space is kept, and the middle of that part.
+struct KeptPart {
+  double share;  ///< 0..1
+  Vec2d centre;  ///< of the triangle where nothing is kept
+};
+
 /// The part of a material's texture that is not cut away: alpha at or above the cutoff.
 class AlphaMask {
  public:
   /// Nothing where the material is opaque, its image is missing, or no texel is cut away.
-  /// `images` outlives the mask.
   static std::optional<AlphaMask> of(const Material& material, const std::vector<Image>& images);
+
+  /// Whether any texel is kept.
+  bool keeps_any() const { return kept_count_ > 0; }
+  /// Whether the texel at a place in texture space is kept.
+  bool keeps(Vec2d uv) const;
+  /// Exact: a texel counts by the area that it shares with the triangle. A triangle without area is
+  /// the texel that it lies in.
+  KeptPart kept_part(const std::array<Vec2d, 3>& triangle) const;
 
   /// The ellipse with the moments of the mask inside the box: half axes of two standard deviations
   /// along its principal directions. Nothing where the mask is empty there.
@@ -36,10 +49,12 @@ class AlphaMask {
 
   AlphaMask(const Material& material, const Image& image);
   std::optional<TextureEllipse> moments(const Texels& texels) const;
+  bool keeps_texel(std::int64_t x, std::int64_t y) const;
 
-  const Image* image_;
+  int width_, height_;
   Wrap wrap_u_, wrap_v_;
-  std::array<bool, 256> kept_;  ///< by alpha
+  std::vector<std::uint8_t> kept_;  ///< a texel each, 1 where it is kept, rows from the top
+  std::size_t kept_count_ = 0;
   std::map<Texels, std::optional<TextureEllipse>> ellipses_;
 };
 

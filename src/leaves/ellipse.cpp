@@ -22,13 +22,6 @@ struct UvPoint {
   auto key() const { return std::tuple(point, uv.x(), uv.y()); }
 };
 
-/// The least-squares affine map from a leaf's texture coordinates to its points.
-struct TextureMap {
-  Eigen::Matrix<double, 3, 2> linear;
-  double residual;  ///< the largest distance between a point and its image
-  UvBox box;        ///< of the leaf's texture coordinates
-};
-
 /// Each pair once, however many faces hold it. The back faces of a leaf may show another part of
 /// the texture, or a mirrored one, and would spoil the map of the front.
 std::vector<UvPoint> uv_points(const LeafMesh& leaf, std::span<const Vec2f> uvs,
@@ -75,7 +68,11 @@ std::optional<TextureMap> fit_map(const LeafMesh& leaf, std::span<const Vec2f> u
   }
   if (!(spread.determinant() > kLeastSpread * spread.trace() * spread.trace())) return {};
 
-  TextureMap map{joint * spread.inverse(), 0, {{low.x(), low.y()}, {high.x(), high.y()}}};
+  TextureMap map{joint * spread.inverse(),
+                 {},
+                 0,
+                 {{low.x(), low.y()}, {high.x(), high.y()}}};
+  map.origin = mean_point - map.linear * mean_uv;
   for (const auto& [point, uv] : pairs) {
     const Eigen::Vector3d image = mean_point + map.linear * (uv - mean_uv);
     map.residual = std::max(map.residual, (leaf.points[point] - image).norm());
@@ -92,7 +89,7 @@ std::optional<LeafEllipse> map_ellipse(const TextureEllipse& drawn, const Textur
   const double sine_scale = major.norm() * minor.norm();
   if (!(major.cross(minor).norm() > kLeastSine * sine_scale)) return {};
   const bool flat = std::max(plane.deviation, map.residual) <= major.norm() / 4;
-  return LeafEllipse{plane.normal, major, minor, flat, true};
+  return LeafEllipse{plane.normal, major, minor, flat, true, map};
 }
 
 }  // namespace
@@ -100,8 +97,9 @@ std::optional<LeafEllipse> map_ellipse(const TextureEllipse& drawn, const Textur
 std::optional<LeafEllipse> fit_ellipse(const LeafMesh& leaf, const TextureSource& texture) {
   const std::optional<PlaneFit> plane = fit_plane(leaf);
   if (!plane) return {};
+  std::optional<TextureMap> map;
   if (texture.draws()) {
-    if (const auto map = fit_map(leaf, texture.uvs, plane->normal)) {
+    if ((map = fit_map(leaf, texture.uvs, plane->normal))) {
       const auto drawn = texture.ellipse ? texture.ellipse : texture.mask->ellipse(map->box);
       if (drawn) {
         if (auto mapped = map_ellipse(*drawn, *map, *plane)) return mapped;
@@ -109,7 +107,7 @@ std::optional<LeafEllipse> fit_ellipse(const LeafMesh& leaf, const TextureSource
     }
   }
   const bool flat = plane->deviation <= plane->major.norm() / 4;
-  return LeafEllipse{plane->normal, plane->major, plane->minor, flat, false};
+  return LeafEllipse{plane->normal, plane->major, plane->minor, flat, false, map};
 }
 
 }  // namespace leafhull

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <memory>
 #include <optional>
 #include <span>
 
@@ -15,9 +16,17 @@ namespace leafhull {
 struct TextureSource {
   std::span<const Vec2f> uvs;             ///< by stored vertex, or none
   std::optional<TextureEllipse> ellipse;  ///< given by the user
-  AlphaMask* mask = nullptr;
+  std::shared_ptr<AlphaMask> mask;        ///< what of the texture is visible; none: all of it
 
   bool draws() const { return ellipse || mask; }
+};
+
+/// The least-squares affine map from a leaf's texture coordinates to its points: origin + linear uv.
+struct TextureMap {
+  Eigen::Matrix<double, 3, 2> linear;
+  Eigen::Vector3d origin;
+  double residual;  ///< the largest distance between a point and its image
+  UvBox box;        ///< of the leaf's texture coordinates
 };
 
 /// A leaf's ellipse and plane in world directions.
@@ -26,6 +35,7 @@ struct LeafEllipse {
   Eigen::Vector3d major, minor;  ///< half axes, not both along one line; major is the longer one
   bool flat;  ///< no farther than a quarter of R_u from its plane and texture map
   bool from_texture;
+  std::optional<TextureMap> map;  ///< where the texture can be mapped
 };
 
 /// The first source that applies: the given ellipse, the alpha mask, the triangles. Nothing for a

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -15,6 +16,7 @@
 #include "leaves/order.h"
 #include "leaves/placement.h"
 #include "leaves/selection.h"
+#include "leaves/sheets.h"
 
 namespace leafhull {
 namespace {
@@ -50,6 +52,10 @@ class LeafCollector {
 
   /// Leaves whose texture should have told their ellipse and did not.
   std::size_t untextured() const { return untextured_; }
+  /// The leaves as visible area.
+  std::shared_ptr<const LeafSheets> sheets() { return sheets_.finish(); }
+  /// Materials whose texture is cut away everywhere, by name.
+  const std::vector<std::string>& hidden() const { return hidden_; }
 
  private:
   struct Source {
@@ -61,11 +67,21 @@ class LeafCollector {
 
   TextureSource texture_of(const Primitive& primitive) {
     TextureSource source{primitive.uvs, options_.ellipse, nullptr};
-    if (primitive.material < 0 || options_.ellipse) return source;
+    if (primitive.material < 0) return source;
     const auto [known, is_new] = masks_.try_emplace(primitive.material);
-    if (is_new) known->second = AlphaMask::of(tree_.materials[primitive.material], tree_.images);
-    if (known->second) source.mask = &*known->second;
+    if (is_new) known->second = mask_of(tree_.materials[primitive.material]);
+    source.mask = known->second;
     return source;
+  }
+
+  std::shared_ptr<AlphaMask> mask_of(const Material& material) {
+    std::optional<AlphaMask> mask = AlphaMask::of(material, tree_.images);
+    if (!mask) return nullptr;
+    if (!mask->keeps_any()) {
+      hidden_.push_back(material.name);
+      return nullptr;
+    }
+    return std::make_shared<AlphaMask>(std::move(*mask));
   }
 
   void take_component(const Source& source, std::span<const Face> component) {
@@ -98,6 +114,9 @@ class LeafCollector {
       ++leaves_.dropped_leaves;
       return;
     }
+    const Eigen::Vector3d first = to_eigen(source.mesh.positions[mesh_.positions.front()]);
+    sheets_.take(mesh_, *ellipse, source.texture,
+                 source.placement.linear * first + source.placement.translation, options_.scale);
     ++leaves_.leaf_count;
     if (source.texture.draws() && !ellipse->from_texture) ++untextured_;
   }
@@ -144,7 +163,9 @@ class LeafCollector {
   const LeafOptions& options_;
   LeafSet& leaves_;
   LeafMesh mesh_;
-  std::map<int, std::optional<AlphaMask>> masks_;  ///< by material
+  std::map<int, std::shared_ptr<AlphaMask>> masks_;  ///< by material
+  std::vector<std::string> hidden_;
+  SheetCollector sheets_;
   std::size_t untextured_ = 0;
 };
 
@@ -153,6 +174,12 @@ std::string untextured_warning(std::size_t count) {
   if (count == 1) return "1 leaf has" + why + "its ellipse is that of its triangles";
   return std::to_string(count) + " leaves have" + why +
          "their ellipses are those of their triangles";
+}
+
+std::string invisible_warning(std::size_t count) {
+  return count == 1 ? "1 leaf shows nothing of its texture that is not transparent"
+                    : std::to_string(count) +
+                          " leaves show nothing of their texture that is not transparent";
 }
 
 std::string no_usable_leaf(std::size_t dropped, const std::string& file) {
@@ -204,8 +231,17 @@ LeafSet find_leaves(const TreeModel& tree, std::span<const Instance> instances,
   if (collector.untextured() > 0) {
     leaves.warnings.push_back(untextured_warning(collector.untextured()));
   }
+  for (const std::string& material : collector.hidden()) {
+    leaves.warnings.push_back("the texture of material '" + material +
+                              "' is transparent everywhere; its leaves are taken as whole triangles");
+  }
   for (const LeafVertex& vertex : leaves.vertices) leaves.bounds.include(vertex.position);
   sort_vertices(leaves);
+  leaves.sheets = collector.sheets();
+  leaves.area = leaves.sheets->area;
+  if (const std::size_t invisible = leaves.sheets->invisible; invisible > 0) {
+    leaves.warnings.push_back(invisible_warning(invisible));
+  }
   leaves.mean_radius_major = mean_radius_major(leaves);
   return leaves;
 }

@@ -58,33 +58,45 @@ std::vector<std::uint32_t> rank_leaves(const LeafSet& leaves) {
 }
 
 std::vector<LeafVertex> sorted_vertices(const LeafSet& leaves) {
-  struct Entry {
-    std::uint64_t code;
-    std::uint32_t vertex;
-  };
   const std::vector<LeafVertex>& vertices = leaves.vertices;
   const std::vector<std::uint32_t> rank = rank_leaves(leaves);
-  std::vector<Entry> entries;
-  entries.reserve(vertices.size());
-  for (const LeafVertex& vertex : vertices) {
-    entries.push_back(
-        {morton_code(vertex.position, leaves.bounds), static_cast<std::uint32_t>(entries.size())});
-  }
-  std::ranges::sort(entries, [&](const Entry& a, const Entry& b) {
-    if (a.code != b.code) return a.code < b.code;
-    const LeafVertex& first = vertices[a.vertex];
-    const LeafVertex& second = vertices[b.vertex];
-    if (precedes(first, second)) return true;
-    if (precedes(second, first)) return false;
-    return rank[first.leaf] < rank[second.leaf];
-  });
+  std::vector<Vec3d> positions;
+  positions.reserve(vertices.size());
+  for (const LeafVertex& vertex : vertices) positions.push_back(vertex.position);
+  const std::vector<std::uint32_t> order =
+      morton_order(positions, leaves.bounds, [&](std::uint32_t a, std::uint32_t b) {
+        if (precedes(vertices[a], vertices[b])) return true;
+        if (precedes(vertices[b], vertices[a])) return false;
+        return rank[vertices[a].leaf] < rank[vertices[b].leaf];
+      });
   std::vector<LeafVertex> sorted;
   sorted.reserve(vertices.size());
-  for (const Entry& entry : entries) sorted.push_back(vertices[entry.vertex]);
+  for (const std::uint32_t vertex : order) sorted.push_back(vertices[vertex]);
   return sorted;
 }
 
 }  // namespace
+
+std::vector<std::uint32_t> morton_order(
+    std::span<const Vec3d> positions, const Box& bounds,
+    const std::function<bool(std::uint32_t, std::uint32_t)>& precedes) {
+  struct Entry {
+    std::uint64_t code;
+    std::uint32_t place;
+  };
+  std::vector<Entry> entries;
+  entries.reserve(positions.size());
+  for (const Vec3d& position : positions) {
+    entries.push_back({morton_code(position, bounds), static_cast<std::uint32_t>(entries.size())});
+  }
+  std::ranges::sort(entries, [&](const Entry& a, const Entry& b) {
+    return a.code != b.code ? a.code < b.code : precedes(a.place, b.place);
+  });
+  std::vector<std::uint32_t> order;
+  order.reserve(entries.size());
+  for (const Entry& entry : entries) order.push_back(entry.place);
+  return order;
+}
 
 void sort_vertices(LeafSet& leaves) {
   leaves.vertices = sorted_vertices(leaves);

@@ -1,9 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
 #include "leafhull/leaves.h"
 
 namespace leafhull {
+
+/// The order of positions along a Morton curve through the box `bounds`, which holds them;
+/// `precedes` tells which of two comes first that have one place on the curve.
+std::vector<std::uint32_t> morton_order(
+    std::span<const Vec3d> positions, const Box& bounds,
+    const std::function<bool(std::uint32_t, std::uint32_t)>& precedes);
 
 /// Sorts the vertices along a Morton curve through their bounds and numbers the leaves as they
 /// appear there: an order that depends on the geometry alone.

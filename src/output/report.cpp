@@ -2,6 +2,7 @@
 #include "output/report.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -55,9 +56,12 @@ Json parameters(const Report& report) {
   return parameters;
 }
 
-Json counts(const Counts& counts) {
+Json counts(const Report& report) {
+  const Counts& counts = report.counts;
   return {{"leaves", counts.leaves},
           {"leaf_vertices", counts.leaf_vertices},
+          {"leaf_points", counts.leaf_points},
+          {"leaf_area", report.leaf_area},
           {"dropped_leaves", counts.dropped_leaves},
           {"split_components", counts.split_components},
           {"evaluated_voxels", counts.evaluated_voxels},
@@ -71,16 +75,19 @@ Json counts(const Counts& counts) {
 Json density(const DensityStatistics& density) {
   return {{"mean", density.mean},
           {"variance", density.variance},
+          {"deviation", std::sqrt(density.variance)},
           {"p1", density.p1},
           {"p2", density.p2}};
 }
 
-Json metrics(const Metrics& metrics) {
+Json metrics(const Report& report) {
+  const Metrics& metrics = report.metrics;
   return {{"dilated_voxels", metrics.dilated_voxels},
           {"inside_voxels", metrics.inside_voxels},
           {"on_voxels", metrics.on_voxels},
           {"off_site_exact", metrics.off_site_exact},
-          {"off_site_sampled", metrics.off_site_sampled}};
+          {"off_site_sampled", metrics.off_site_sampled},
+          {"covered", report.covered}};
 }
 
 }  // namespace
@@ -110,9 +117,9 @@ Json report_object(const Report& report, const RunDescription& run) {
           {"command", run.command},
           {"parameters", parameters(report)},
           {"device", report.device},
-          {"counts", counts(report.counts)},
+          {"counts", counts(report)},
           {"density", density(report.density)},
-          {"metrics", metrics(report.metrics)},
+          {"metrics", metrics(report)},
           {"seconds", seconds_object(report.seconds)},
           {"peak_memory_bytes", report.peak_memory_bytes},
           {"warnings", report.warnings}};

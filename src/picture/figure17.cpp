@@ -23,9 +23,9 @@ struct Row {
   Style style;
   const char* caption;
 };
-constexpr std::array<Row, 3> kRows{{{Style::thin, "(a) Thin abstract shape."},
-                                    {Style::fat, "(b) Fat abstract shape."},
-                                    {Style::luft_deussen, "(c) The previous method."}}};
+constexpr std::array<Row, 3> kRows{{{Style::paper_thin, "(a) Thin abstract shape."},
+                                    {Style::paper_fat, "(b) Fat abstract shape."},
+                                    {Style::paper_previous, "(c) The previous method."}}};
 
 /// With one decimal, as the paper prints it, or as many as it takes.
 std::string decimal(double value) {

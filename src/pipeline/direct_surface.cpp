@@ -53,8 +53,6 @@ DirectSurface::DirectSurface(const LeafSet& leaves, const Options& options, Devi
   }
   d.caster.emplace(device, *d.grid, d.report.threshold, stages.density().kernels(), *stages.lists(),
                    d.report.options.falloff);
-  d.report.counts.leaves = leaves.leaf_count;
-  d.report.counts.leaf_vertices = leaves.vertices.size();
   d.report.seconds = d.watch.finish();
   d.progress = {};
 }

@@ -11,8 +11,11 @@
 namespace leafhull {
 namespace {
 
-constexpr std::string_view kStyleNames[] = {"painterly", "thin", "fat", "luft-deussen"};
+constexpr std::string_view kStyleNames[] = {"painterly", "thin",       "fat",
+                                            "previous",  "paper-thin", "paper-fat",
+                                            "paper-previous"};
 constexpr std::string_view kMethodNames[] = {"isotropic", "uncontrolled", "controlled"};
+constexpr std::string_view kPointSourceNames[] = {"area", "vertices"};
 constexpr std::string_view kRadiusUnitNames[] = {"crown", "leaf", "model"};
 constexpr std::string_view kSpreadNames[] = {"stddev", "variance"};
 constexpr std::string_view kDensityNames[] = {"exact", "grid"};
@@ -28,15 +31,20 @@ struct StyleValues {
   double radius_max;
   std::optional<double> threshold, coverage;
   double flatness;
+  PointSource points;
+  double point_spacing;
   double min_component;
 };
 
 // Luft and Deussen's spheres are not flattened: 1 keeps them round under another method, too.
 constexpr StyleValues kStyles[] = {
-    {Method::controlled, 2.5, {}, 0.92, 0.8, 0.001},
-    {Method::controlled, 1.4, 2.0, {}, 0.7, 0},
-    {Method::controlled, 1.6, 2.0, {}, 1.0, 0},
-    {Method::isotropic, 1.5, 1.5, {}, 1.0, 0},
+    {Method::controlled, 2.5, {}, 0.92, 0.8, PointSource::area, 0.4, 0.001},
+    {Method::controlled, 1.2, {}, 0.80, 0.7, PointSource::area, 0.3, 0.001},
+    {Method::controlled, 3.5, {}, 0.98, 1.0, PointSource::area, 0.4, 0.001},
+    {Method::isotropic, 2.5, {}, 0.95, 1.0, PointSource::area, 0.4, 0.001},
+    {Method::controlled, 1.4, 2.0, {}, 0.7, PointSource::vertices, 0.4, 0},
+    {Method::controlled, 1.6, 2.0, {}, 1.0, PointSource::vertices, 0.4, 0},
+    {Method::isotropic, 1.5, 1.5, {}, 1.0, PointSource::vertices, 0.4, 0},
 };
 static_assert(std::size(kStyles) == std::size(kStyleNames));
 
@@ -126,6 +134,7 @@ void check_contradictions(const Options& options) {
 
 std::span<const std::string_view> names(Style) { return kStyleNames; }
 std::span<const std::string_view> names(Method) { return kMethodNames; }
+std::span<const std::string_view> names(PointSource) { return kPointSourceNames; }
 std::span<const std::string_view> names(RadiusUnit) { return kRadiusUnitNames; }
 std::span<const std::string_view> names(Spread) { return kSpreadNames; }
 std::span<const std::string_view> names(DensitySource) { return kDensityNames; }
@@ -156,6 +165,8 @@ Options resolve(Options options) {
   if (!options.method) options.method = style.method;
   if (!options.radius_max) options.radius_max = style.radius_max;
   if (!options.flatness) options.flatness = style.flatness;
+  if (!options.points) options.points = style.points;
+  if (!options.point_spacing) options.point_spacing = style.point_spacing;
   if (!options.min_component) options.min_component = style.min_component;
   if (!options.threshold && !options.threshold_percent && !options.coverage) {
     options.threshold = style.threshold;

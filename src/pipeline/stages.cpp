@@ -16,10 +16,17 @@
 namespace leafhull {
 namespace {
 
+PointsKey points_key(const Report& report) {
+  const Options& o = report.options;
+  const bool area = o.points == PointSource::area;
+  return {*o.points, area ? *o.point_spacing * report.radius_max_model : 0};
+}
+
 DensityKey density_key(const Report& report) {
   const Options& o = report.options;
   const bool grid = o.density == DensitySource::grid;
-  return {report.radius_max_model, o.falloff, o.density, grid ? report.voxel_size : 0};
+  return {points_key(report), report.radius_max_model, o.falloff, o.density,
+          grid ? report.voxel_size : 0};
 }
 
 KernelsKey kernels_key(const Report& report) {
@@ -31,11 +38,20 @@ Lattice lattice_of(const LeafSet& leaves, const Report& report) {
   return Lattice::near(leaves.bounds.low, report.voxel_size);
 }
 
-std::vector<Vec3d> local_positions(std::span<const LeafVertex> leaves, const Lattice& lattice) {
+std::vector<Vec3d> local(std::span<const Vec3d> places, const Lattice& lattice) {
   std::vector<Vec3d> points;
-  points.reserve(leaves.size());
-  for (const LeafVertex& leaf : leaves) points.push_back(lattice.local(leaf.position));
+  points.reserve(places.size());
+  for (const Vec3d& place : places) points.push_back(lattice.local(place));
   return points;
+}
+
+/// `Point` has a position.
+template <class Point>
+std::vector<Vec3d> positions_of(const std::vector<Point>& points) {
+  std::vector<Vec3d> positions;
+  positions.reserve(points.size());
+  for (const Point& point : points) positions.push_back(point.position);
+  return positions;
 }
 
 double threshold_of(const Options& options, const DensityStatistics& statistics,
@@ -51,6 +67,36 @@ double threshold_of(const Options& options, const DensityStatistics& statistics,
   return threshold;
 }
 
+/// A coverage is missed by more than this where many places have one density.
+constexpr double kCoverageMissed = 0.02;
+
+void warn_of_points(const LeafSet& leaves, const Options& options, std::span<const float> there,
+                    Report& report) {
+  char text[240];
+  if (options.points == PointSource::vertices && options.method != Method::isotropic &&
+      leaves.mean_radius_major > report.radius_max_model) {
+    std::snprintf(text, sizeof text,
+                  "the leaves' mean radius, %.3g model units, is above R_max, %.3g: kernels at their "
+                  "vertices leave their middle empty (--points area does not)",
+                  leaves.mean_radius_major, report.radius_max_model);
+    report.warnings.emplace_back(text);
+  }
+  if (!options.coverage) return;
+  // N is summed in floats: what lies this near to T may come out on either side on the lattice.
+  const double above = report.threshold * (1 + 1e-5);
+  const auto surely = std::count_if(there.begin(), there.end(),
+                                    [&](float n) { return static_cast<double>(n) > above; });
+  const double low = static_cast<double>(surely) / static_cast<double>(there.size());
+  if (std::max(report.covered - *options.coverage, *options.coverage - low) <= kCoverageMissed) {
+    return;
+  }
+  std::snprintf(text, sizeof text,
+                "a coverage of %.3g cannot be had: many leaf vertices have the same density %.4g, and "
+                "between %.0f%% and %.0f%% of them lie inside (change --radius-max)",
+                *options.coverage, report.threshold, 100 * low, 100 * report.covered);
+  report.warnings.emplace_back(text);
+}
+
 }  // namespace
 
 FieldKey field_key(const Report& report) {
@@ -58,12 +104,12 @@ FieldKey field_key(const Report& report) {
   return {kernels_key(report), report.voxel_size, margin, report.options.dense};
 }
 
-/// N of `kernels` at the leaf vertices, summed there.
-std::vector<float> Stages::density_at_leaves(const Report& report,
-                                             std::span<const Kernel> kernels) const {
+/// N of `kernels`, summed there.
+std::vector<float> Stages::density_at(std::span<const Vec3d> places, const Report& report,
+                                      std::span<const Kernel> kernels) const {
   const Lattice lattice = leaf_lattice(leaves_, report.radius_max_model);
   DensityFunction density(device_, kernels, hash_.value, lattice, report.options.falloff);
-  return density.at(local_positions(leaves_.vertices, lattice));
+  return density.at(local(places, lattice));
 }
 
 void Stages::prepare(Report& report) {
@@ -76,37 +122,67 @@ void Stages::prepare(Report& report) {
   const Lattice lattice = set_grid(leaves_, report);
   const double radius_max = report.radius_max_model;
 
+  const PointsKey key = points_key(report);
+  watch_.start("points");
+  points_.update(key, [&] {
+    const auto& [source, spacing] = key;
+    return source == PointSource::area ? area_points(leaves_, spacing) : vertex_points(leaves_);
+  });
+  const std::vector<LeafPoint>& points = points_.value.points;
+
   watch_.start("hash");
-  hash_.update(radius_max, [&] {
-    return std::make_shared<const SpatialHash>(isotropic_kernels(leaves_.vertices, radius_max),
-                                               hash_cells(leaves_, radius_max));
+  hash_.update({key, radius_max}, [&] {
+    return std::make_shared<const SpatialHash>(
+        isotropic_kernels(points, radius_max, options.falloff), hash_cells(leaves_, radius_max));
   });
 
-  // Step 2: the isotropic density at the leaf vertices, summed there or, as in the paper,
+  // Step 2: the isotropic density at the leaf points, summed there or, as in the paper,
   // interpolated from the lattice.
   watch_.start("isotropic density");
   isotropic_density_.update(density_key(report), [&] {
-    const std::vector<Kernel> kernels = isotropic_kernels(leaves_.vertices, radius_max);
-    if (options.density == DensitySource::exact) return density_at_leaves(report, kernels);
+    const std::vector<Kernel> kernels = isotropic_kernels(points, radius_max, options.falloff);
+    const std::vector<Vec3d> places = positions_of(points);
+    if (options.density == DensitySource::exact) return density_at(places, report, kernels);
     DensityFunction density(device_, kernels, hash_.value, lattice, options.falloff);
-    return density.interpolated_at(local_positions(leaves_.vertices, lattice));
+    return density.interpolated_at(local(places, lattice));
   });
 
   // Steps 3 to 5: p1 and p2, and from them the radii.
   watch_.start("control");
-  report.density = density_statistics(isotropic_density_.value, options);
+  report.density = density_statistics(points, isotropic_density_.value, options);
   kernels_.update(kernels_key(report), [&] {
-    return controlled_kernels(leaves_.vertices, isotropic_density_.value, report.density,
-                              radius_max, options);
+    return controlled_kernels(points, isotropic_density_.value, report.density, radius_max,
+                              options);
   });
 
   watch_.start("threshold");
   density_there_.update(kernels_key(report), [&] {
-    const bool known =
-        options.method == Method::isotropic && options.density == DensitySource::exact;
-    return known ? isotropic_density_.value : density_at_leaves(report, kernels_.value);
+    const bool known = options.method == Method::isotropic &&
+                       options.density == DensitySource::exact &&
+                       options.points == PointSource::vertices;
+    return known ? isotropic_density_.value
+                 : density_at(points_.value.samples, report, kernels_.value);
   });
   report.threshold = threshold_of(options, report.density, density_there_.value);
+  describe(report);
+}
+
+/// What is known of the leaves once T is.
+void Stages::describe(Report& report) const {
+  const Options& options = report.options;
+  report.leaf_area = leaves_.area;
+  report.counts.leaves = leaves_.leaf_count;
+  report.counts.leaf_vertices = leaves_.vertices.size();
+  report.counts.leaf_points = points_.value.points.size();
+  report.counts.dropped_leaves = leaves_.dropped_leaves;
+  report.counts.split_components = leaves_.split_components;
+  const std::vector<float>& there = density_there_.value;
+  const auto off_site = std::count_if(there.begin(), there.end(), [&](float n) {
+    return static_cast<double>(n) < report.threshold;
+  });
+  report.metrics.off_site_exact = static_cast<std::uint64_t>(off_site);
+  report.covered = 1 - static_cast<double>(off_site) / static_cast<double>(there.size());
+  warn_of_points(leaves_, options, there, report);
 }
 
 FieldMemory Stages::memory(const Report& prepared, const std::vector<double>& thresholds) {
@@ -144,15 +220,13 @@ Polygons Stages::polygonise(const Field& field, Mesher mesher, Report& report) c
 
 void Stages::measure(const Field& field, Report& report) const {
   watch_.start("metrics");
+  const Lattice lattice = lattice_of(leaves_, report);
+  const std::uint64_t off_site = report.metrics.off_site_exact;
+  const bool area = report.options.points == PointSource::area;
   report.metrics =
-      leafhull::measure(field, local_positions(leaves_.vertices, lattice_of(leaves_, report)));
-  report.metrics.off_site_exact = static_cast<std::uint64_t>(
-      std::count_if(density_there_.value.begin(), density_there_.value.end(),
-                    [&](float n) { return static_cast<double>(n) < report.threshold; }));
-  report.counts.leaves = leaves_.leaf_count;
-  report.counts.leaf_vertices = leaves_.vertices.size();
-  report.counts.dropped_leaves = leaves_.dropped_leaves;
-  report.counts.split_components = leaves_.split_components;
+      leafhull::measure(field, local(points_.value.samples, lattice),
+                        area ? local(positions_of(leaves_.vertices), lattice) : std::vector<Vec3d>());
+  report.metrics.off_site_exact = off_site;
   report.counts.evaluated_voxels = field.sample_count();
   report.counts.evaluated_pairs = sampled_.value.pairs;
 }
@@ -163,7 +237,7 @@ void Stages::refuse_empty(const Field& field, const Report& report) const {
   char text[200];
   std::snprintf(text, sizeof text,
                 "the surface is empty: no sample reaches the threshold %.4g, the density being at "
-                "most %.4g at the leaf vertices and between",
+                "most %.4g at the leaves and between",
                 field.threshold(), static_cast<double>(std::max(field.highest(), *at_leaves)));
   const char* lower = options.threshold           ? "Lower --threshold"
                       : options.threshold_percent ? "Lower --threshold-percent"

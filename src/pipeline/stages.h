@@ -12,6 +12,7 @@
 #include "pipeline/evaluate.h"
 #include "pipeline/memory.h"
 #include "pipeline/stopwatch.h"
+#include "points/leaf_points.h"
 #include "surface/components.h"
 #include "surface/polygonise.h"
 
@@ -41,8 +42,11 @@ class Kept {
   std::optional<Key> key_;
 };
 
-/// What N_iso depends on: R_max, k, where it is taken, and the voxel size if from the lattice.
-using DensityKey = std::tuple<double, int, DensitySource, double>;
+/// What the leaf points depend on: their kind and their spacing, model units.
+using PointsKey = std::tuple<PointSource, double>;
+/// What N_iso depends on: the points, R_max, k, where it is taken, and the voxel size if from the
+/// lattice.
+using DensityKey = std::tuple<PointsKey, double, int, DensitySource, double>;
 /// What the kernels depend on: N_iso, the method, lambda_R, the spread, a1 and a2.
 using KernelsKey = std::tuple<DensityKey, Method, double, Spread, double, double>;
 /// What the field depends on beside T: the kernels, the voxel size, the margin, dense or not.
@@ -86,6 +90,7 @@ class Stages {
 
   /// Of the last sample().
   DensityFunction& density() { return *density_; }
+  LeafPoints take_points() { return std::move(points_.value); }
   std::vector<Kernel> take_kernels() { return std::move(kernels_.value); }
   std::vector<float> take_density_there() { return std::move(density_there_.value); }
   std::vector<float> take_isotropic_density() { return std::move(isotropic_density_.value); }
@@ -99,16 +104,20 @@ class Stages {
     std::shared_ptr<const BrickList> lists;
   };
 
-  std::vector<float> density_at_leaves(const Report& report, std::span<const Kernel> kernels) const;
+  std::vector<float> density_at(std::span<const Vec3d> places, const Report& report,
+                                std::span<const Kernel> kernels) const;
+
+  void describe(Report& report) const;
 
   const LeafSet& leaves_;
   Device& device_;
   Stopwatch& watch_;
   Lists lists_;
-  Kept<double, std::shared_ptr<const SpatialHash>> hash_;  ///< by R_max
+  Kept<PointsKey, LeafPoints> points_;
+  Kept<std::tuple<PointsKey, double>, std::shared_ptr<const SpatialHash>> hash_;  ///< by R_max
   Kept<DensityKey, std::vector<float>> isotropic_density_;
   Kept<KernelsKey, std::vector<Kernel>> kernels_;
-  Kept<KernelsKey, std::vector<float>> density_there_;  ///< N at the leaf vertices
+  Kept<KernelsKey, std::vector<float>> density_there_;  ///< N at the places on the leaves
   std::optional<DensityFunction> density_;
   Kept<std::tuple<FieldKey, std::vector<double>>, Sampled> sampled_;
 };

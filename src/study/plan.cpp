@@ -68,6 +68,7 @@ Options options_of(const StudyRow& row, const Reading& reading, int resolution) 
   options.threshold = row.threshold;
   options.radius_max = row.radius_max;
   options.flatness = row.flatness;
+  options.points = PointSource::vertices;
   options.min_component = 0;
   options.falloff = reading.falloff;
   options.spread = reading.spread;

@@ -53,8 +53,7 @@ Suggestions suggest(const LeafSet& leaves, const Options& options, Device& devic
     if (volume(leaves.bounds) > 0) {
       choice.dilated_share = choice.dilated_volume / volume(leaves.bounds);
     }
-    choice.covered = 1 - static_cast<double>(choice.report.metrics.off_site_exact) /
-                             static_cast<double>(leaves.vertices.size());
+    choice.covered = choice.report.covered;
     pictures[i].picture = draw_shape(entry.mesh, frame, kPictureWidth, kPictureHeight);
     pictures[i].lines = label(choice);
     return true;

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "leaves/sheets.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "leaves/order.h"
+
+namespace leafhull {
+namespace {
+
+/// The sides of a leaf that has both differ by less than this share in area.
+constexpr double kSameArea = 0.01;
+/// Outlines are told apart by coordinates of this precision, in half axes.
+constexpr double kOutlineSteps = 4096;
+
+Vec3d to_vec3d(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+Vec3f to_vec3f(const Eigen::Vector3d& v) { return Vec3f(to_vec3d(v)); }
+
+/// The faces that stand for a leaf: its front where it has a back that covers the same area.
+std::vector<std::size_t> faces_of_one_side(const LeafMesh& leaf, const Eigen::Vector3d& normal) {
+  double front = 0, back = 0;
+  for (const Eigen::Vector3d& area : leaf.areas) {
+    (area.dot(normal) > 0 ? front : back) += area.norm();
+  }
+  const bool doubled = std::abs(front - back) <= kSameArea * front;
+  std::vector<std::size_t> faces;
+  for (std::size_t face = 0; face < leaf.faces.size(); ++face) {
+    if (leaf.areas[face].isZero(0)) continue;
+    if (!doubled || leaf.areas[face].dot(normal) > 0) faces.push_back(face);
+  }
+  return faces;
+}
+
+/// A chart's own coordinates in a leaf: where they begin and their two axes.
+struct Axes {
+  Eigen::Vector3d origin, across, along;
+};
+
+/// The corners of a triangle as (0, 0), (1, 0), (0, 1): one chart for all.
+Axes axes_of_triangle(const LeafMesh& leaf, std::size_t face) {
+  const auto [a, b, c] = leaf.triangles[face];
+  return {leaf.points[a], leaf.points[b] - leaf.points[a], leaf.points[c] - leaf.points[a]};
+}
+
+/// The half axes of the leaf, about its middle.
+Axes axes_of_plane(const LeafMesh& leaf, const LeafEllipse& ellipse) {
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& point : leaf.points) middle += point;
+  const Eigen::Vector3d across = ellipse.major - ellipse.normal * ellipse.normal.dot(ellipse.major);
+  const Eigen::Vector3d along = ellipse.normal.cross(across).normalized() * ellipse.minor.norm();
+  return {middle / static_cast<double>(leaf.points.size()), across, along};
+}
+
+Vec2d in_plane(const Axes& axes, const Eigen::Vector3d& point) {
+  const auto coordinate = [&](const Eigen::Vector3d& axis) {
+    const double share = (point - axes.origin).dot(axis) / axis.squaredNorm();
+    return std::round(share * kOutlineSteps) / kOutlineSteps;
+  };
+  return {coordinate(axes.across), coordinate(axes.along)};
+}
+
+auto sheet_key(const Sheet& s) {
+  return std::tuple(s.area, s.normal.x, s.normal.y, s.normal.z, s.major.x, s.major.y, s.major.z,
+                    s.radius_major, s.radius_minor, s.origin.x, s.origin.y, s.origin.z, s.across.x,
+                    s.across.y, s.across.z, s.along.x, s.along.y, s.along.z);
+}
+
+}  // namespace
+
+std::uint32_t SheetCollector::chart_of(Triangles triangles,
+                                       const std::shared_ptr<AlphaMask>& mask) {
+  std::vector<double> key;
+  key.reserve(6 * triangles.size());
+  for (const auto& triangle : triangles) {
+    for (const Vec2d p : triangle) key.insert(key.end(), {p.x, p.y});
+  }
+  const auto number = static_cast<std::uint32_t>(sheets_->charts.size());
+  const auto [known, is_new] = charts_.try_emplace({mask.get(), std::move(key)}, number);
+  if (!is_new) return known->second;
+
+  Chart chart{std::move(triangles), mask, {}, {}};
+  double sum = 0;
+  for (const auto& [a, b, c] : chart.triangles) {
+    const Vec2d middle{(a.x + b.x + c.x) / 3, (a.y + b.y + c.y) / 3};
+    const KeptPart kept = mask ? mask->kept_part({a, b, c}) : KeptPart{1, middle};
+    chart.visible.push_back(kept.share);
+    const double area =
+        kept.share * std::abs((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x)) / 2;
+    chart.centre.x += area * kept.centre.x;
+    chart.centre.y += area * kept.centre.y;
+    sum += area;
+  }
+  chart.centre = sum > 0 ? Vec2d{chart.centre.x / sum, chart.centre.y / sum} : Vec2d{};
+  sheets_->charts.push_back(std::move(chart));
+  return number;
+}
+
+void SheetCollector::take(const LeafMesh& leaf, const LeafEllipse& ellipse,
+                          const TextureSource& texture, const Eigen::Vector3d& first,
+                          double scale) {
+  const std::vector<std::size_t> faces = faces_of_one_side(leaf, ellipse.normal);
+  const bool textured = ellipse.map && texture.mask;
+  const Axes axes = textured
+                        ? Axes{ellipse.map->origin, ellipse.map->linear.col(0),
+                               ellipse.map->linear.col(1)}
+                    : faces.size() == 1 ? axes_of_triangle(leaf, faces.front())
+                                        : axes_of_plane(leaf, ellipse);
+  Triangles triangles;
+  for (const std::size_t face : faces) {
+    std::array<Vec2d, 3> corners;
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (textured) {
+        const Vec2f uv = texture.uvs[leaf.faces[face].vertex[i]];
+        corners[i] = {static_cast<double>(uv.x), static_cast<double>(uv.y)};
+      } else if (faces.size() == 1) {
+        corners[i] = {i == 1 ? 1.0 : 0.0, i == 2 ? 1.0 : 0.0};
+      } else {
+        corners[i] = in_plane(axes, leaf.points[leaf.triangles[face][i]]);
+      }
+    }
+    triangles.push_back(corners);
+  }
+  const std::uint32_t number = chart_of(std::move(triangles), textured ? texture.mask : nullptr);
+  const Chart& chart = sheets_->charts[number];
+  double area = 0;
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    area += chart.visible[i] * leaf.areas[faces[i]].norm();
+  }
+  if (!(area > 0)) {
+    ++sheets_->invisible;
+    return;
+  }
+  const Eigen::Vector3d& normal = ellipse.normal;
+  const Eigen::Vector3d major = ellipse.major - normal * normal.dot(ellipse.major);
+  sheets_->sheets.push_back({to_vec3d(first + axes.origin), to_vec3d(axes.across),
+                             to_vec3d(axes.along), area, number, to_vec3f(normal),
+                             to_vec3f(major.normalized()),
+                             static_cast<float>(scale * ellipse.major.norm()),
+                             static_cast<float>(scale * ellipse.minor.norm())});
+}
+
+std::shared_ptr<const LeafSheets> SheetCollector::finish() {
+  std::vector<Sheet>& sheets = sheets_->sheets;
+  std::vector<Vec3d> centres;
+  centres.reserve(sheets.size());
+  for (const Sheet& sheet : sheets) {
+    centres.push_back(sheet.at(sheets_->charts[sheet.chart].centre));
+  }
+  Box bounds;
+  for (const Vec3d& centre : centres) bounds.include(centre);
+  const auto order = morton_order(centres, bounds, [&](std::uint32_t a, std::uint32_t b) {
+    return sheet_key(sheets[a]) < sheet_key(sheets[b]);
+  });
+  std::vector<Sheet> sorted;
+  sorted.reserve(sheets.size());
+  for (const std::uint32_t i : order) sorted.push_back(sheets[i]);
+  sheets = std::move(sorted);
+  for (const Sheet& sheet : sheets) sheets_->area += sheet.area;
+  charts_.clear();
+  return std::move(sheets_);
+}
+
+}  // namespace leafhull

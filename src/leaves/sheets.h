@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "leafhull/leaves.h"
+#include "leaves/alpha_mask.h"
+#include "leaves/ellipse.h"
+#include "leaves/leaf_mesh.h"
+
+namespace leafhull {
+
+/// The outline of leaves in two dimensions, and what of it is visible. Leaves that show the same
+/// part of a texture, or have one shape, share a chart.
+struct Chart {
+  std::vector<std::array<Vec2d, 3>> triangles;
+  std::shared_ptr<const AlphaMask> mask;  ///< of the texture space they lie in; none: all visible
+  std::vector<double> visible;            ///< the share of each triangle
+  Vec2d centre;                           ///< of the visible part
+};
+
+/// A leaf: its chart, placed by position = origin + across x + along y, and its kernel's frame.
+struct Sheet {
+  Vec3d origin;
+  Vec3d across, along;
+  double area = 0;  ///< that is visible, one side of it, model units squared; > 0
+  std::uint32_t chart = 0;
+  Vec3f normal, major;
+  float radius_major = 0, radius_minor = 0;  ///< R_u, R_v, model units
+
+  Vec3d at(Vec2d p) const { return origin + across * p.x + along * p.y; }
+};
+
+/// The leaves of a tree as visible area, in an order that depends on the geometry alone.
+struct LeafSheets {
+  std::vector<Chart> charts;
+  std::vector<Sheet> sheets;
+  std::size_t invisible = 0;  ///< leaves that have no visible area
+  double area = 0;            ///< of all sheets
+};
+
+/// Takes leaves one by one.
+class SheetCollector {
+ public:
+  /// `first`: where the leaf's first point lies in the world; `scale` multiplies its radii.
+  void take(const LeafMesh& leaf, const LeafEllipse& ellipse, const TextureSource& texture,
+            const Eigen::Vector3d& first, double scale);
+
+  /// All of them, sorted.
+  std::shared_ptr<const LeafSheets> finish();
+
+ private:
+  using Triangles = std::vector<std::array<Vec2d, 3>>;
+
+  std::uint32_t chart_of(Triangles triangles, const std::shared_ptr<AlphaMask>& mask);
+
+  std::shared_ptr<LeafSheets> sheets_ = std::make_shared<LeafSheets>();
+  std::map<std::pair<const AlphaMask*, std::vector<double>>, std::uint32_t> charts_;
+};
+
+}  // namespace leafhull

@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "points/cut.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+#include "leaves/sheets.h"
+
+namespace leafhull {
+namespace {
+
+/// Rounds of Lloyd's method; more even out little.
+constexpr int kRounds = 8;
+/// Cells along the longer side of a chart's grid: where it begins and where it ends.
+constexpr int kCoarsestGrid = 16;
+constexpr int kFinestGrid = 4096;
+
+using Samples = std::span<const Eigen::Vector2d>;
+
+/// Calls visit(members) for each of `count` parts of about equal size.
+template <class Visit>
+void halve(Samples samples, std::span<std::uint32_t> members, std::size_t count, Visit& visit) {
+  if (members.empty()) return;
+  if (count <= 1 || members.size() == 1) return visit(members);
+  Eigen::Array2d low = samples[members.front()], high = low;
+  for (const std::uint32_t i : members) {
+    low = low.min(samples[i].array());
+    high = high.max(samples[i].array());
+  }
+  const int axis = high[1] - low[1] > high[0] - low[0] ? 1 : 0;
+  const std::size_t first = count / 2;
+  const std::size_t cut = (members.size() * first + count / 2) / count;
+  const auto key = [&](std::uint32_t i) {
+    return std::tuple(samples[i][axis], samples[i][1 - axis], i);
+  };
+  std::ranges::nth_element(members, members.begin() + static_cast<std::ptrdiff_t>(cut), {}, key);
+  halve(samples, members.first(cut), first, visit);
+  halve(samples, members.subspan(cut), count - first, visit);
+}
+
+/// The nearest of some seeds, which lie in the cells of a grid.
+class NearestSeed {
+ public:
+  /// `edge` of a cell: about what seeds are apart.
+  NearestSeed(Samples seeds, double edge) : seeds_(seeds), edge_(edge) {
+    Eigen::Array2d high = seeds.front();
+    low_ = high;
+    for (const Eigen::Vector2d& seed : seeds) {
+      low_ = low_.min(seed.array());
+      high = high.max(seed.array());
+    }
+    for (int axis = 0; axis < 2; ++axis) size_[axis] = cell(high[axis], axis) + 1;
+    first_.assign(static_cast<std::size_t>(size_[0]) * size_[1] + 1, 0);
+    for (const Eigen::Vector2d& seed : seeds) ++first_[index(seed) + 1];
+    std::partial_sum(first_.begin(), first_.end(), first_.begin());
+    members_.resize(seeds.size());
+    std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
+    for (std::uint32_t i = 0; i < seeds.size(); ++i) members_[next[index(seeds[i])]++] = i;
+  }
+
+  std::uint32_t operator()(const Eigen::Vector2d& p) const {
+    std::uint32_t best = 0;
+    double nearest = std::numeric_limits<double>::infinity();
+    const int x = std::clamp(cell(p[0], 0), 0, size_[0] - 1);
+    const int y = std::clamp(cell(p[1], 1), 0, size_[1] - 1);
+    for (int ring = 0; ring < std::max(size_[0], size_[1]); ++ring) {
+      // What lies in this ring is no nearer than the rings within it are wide.
+      const double least = (ring - 1) * edge_;
+      if (ring > 0 && least > 0 && nearest <= least * least) break;
+      for (int i = std::max(x - ring, 0); i <= std::min(x + ring, size_[0] - 1); ++i) {
+        const bool side = i == x - ring || i == x + ring;
+        const int step = side || ring == 0 ? 1 : 2 * ring;
+        for (int j = y - ring; j <= y + ring; j += step) {
+          if (j < 0 || j >= size_[1]) continue;
+          const std::size_t c = static_cast<std::size_t>(i) * size_[1] + j;
+          for (std::uint32_t m = first_[c]; m < first_[c + 1]; ++m) {
+            const double distance = (seeds_[members_[m]] - p).squaredNorm();
+            if (distance < nearest || (distance == nearest && members_[m] < best)) {
+              nearest = distance;
+              best = members_[m];
+            }
+          }
+        }
+      }
+    }
+    return best;
+  }
+
+ private:
+  int cell(double v, int axis) const {
+    return static_cast<int>(std::floor((v - low_[axis]) / edge_));
+  }
+  std::size_t index(const Eigen::Vector2d& p) const {
+    return static_cast<std::size_t>(cell(p[0], 0)) * size_[1] + cell(p[1], 1);
+  }
+
+  Samples seeds_;
+  double edge_;
+  Eigen::Array2d low_;
+  std::array<int, 2> size_{};
+  std::vector<std::uint32_t> first_, members_;
+};
+
+/// What the samples that are nearest to each seed sum to.
+struct Sums {
+  double count = 0;
+  Eigen::Vector2d first = Eigen::Vector2d::Zero();
+  Eigen::Matrix2d second = Eigen::Matrix2d::Zero();
+
+  void add(const Eigen::Vector2d& p) {
+    ++count;
+    first += p;
+    second += p * p.transpose();
+  }
+};
+
+std::vector<Sums> sums_around(Samples seeds, Samples samples, double edge) {
+  const NearestSeed nearest(seeds, edge);
+  std::vector<Sums> sums(seeds.size());
+  for (const Eigen::Vector2d& p : samples) {
+    const std::uint32_t seed = nearest(p);
+    sums[seed].add(p - seeds[seed]);
+  }
+  return sums;
+}
+
+/// What a seed is apart from its neighbours, about: the root of the area of a part, as far as the
+/// box around the samples tells.
+double spacing(Samples samples, std::size_t count) {
+  Eigen::Array2d low = samples.front(), high = low;
+  for (const Eigen::Vector2d& p : samples) {
+    low = low.min(p.array());
+    high = high.max(p.array());
+  }
+  const Eigen::Array2d size = high - low;
+  const double parts = static_cast<double>(count);
+  const double edge = std::max(std::sqrt(size[0] * size[1] / parts), size.maxCoeff() / parts);
+  return edge > 0 ? edge : 1;
+}
+
+}  // namespace
+
+std::vector<FlatPart> cut_evenly(Samples samples, std::size_t count) {
+  std::vector<std::uint32_t> members(samples.size());
+  std::iota(members.begin(), members.end(), 0u);
+  std::vector<Eigen::Vector2d> seeds;
+  const auto visit = [&](std::span<const std::uint32_t> part) {
+    Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+    for (const std::uint32_t i : part) sum += samples[i];
+    seeds.emplace_back(sum / static_cast<double>(part.size()));
+  };
+  halve(samples, members, count, visit);
+
+  const double edge = spacing(samples, seeds.size());
+  std::vector<Sums> sums = sums_around(seeds, samples, edge);
+  for (int round = 0; round < kRounds && seeds.size() > 1; ++round) {
+    for (std::size_t i = 0; i < seeds.size(); ++i) {
+      if (sums[i].count > 0) seeds[i] += sums[i].first / sums[i].count;
+    }
+    sums = sums_around(seeds, samples, edge);
+  }
+  std::vector<FlatPart> parts;
+  for (std::size_t i = 0; i < seeds.size(); ++i) {
+    const auto& [number, first, second] = sums[i];
+    if (number == 0) continue;
+    const Eigen::Vector2d mean = first / number;
+    parts.push_back({seeds[i] + mean, second / number - mean * mean.transpose(),
+                     number / static_cast<double>(samples.size())});
+  }
+  return parts;
+}
+
+namespace {
+
+/// Which cells of a grid over [low, low + size] have their middle in a triangle.
+void mark(const std::array<Vec2d, 3>& triangle, Vec2d low, Vec2d size, int edge,
+          std::vector<bool>& marked) {
+  const auto [a, b, c] = triangle;
+  const double turn = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+  const auto left_of = [turn](Vec2d p, Vec2d from, Vec2d to) {
+    return ((to.x - from.x) * (p.y - from.y) - (to.y - from.y) * (p.x - from.x)) * turn >= 0;
+  };
+  const auto cells = [edge](double least, double most, double from, double length) {
+    const auto at = [&](double v) { return (v - from) / length * edge - 0.5; };
+    return std::pair(std::max(0, static_cast<int>(std::ceil(at(least)))),
+                     std::min(edge - 1, static_cast<int>(std::floor(at(most)))));
+  };
+  const auto [x0, x1] =
+      cells(std::min({a.x, b.x, c.x}), std::max({a.x, b.x, c.x}), low.x, size.x);
+  const auto [y0, y1] =
+      cells(std::min({a.y, b.y, c.y}), std::max({a.y, b.y, c.y}), low.y, size.y);
+  for (int y = y0; y <= y1; ++y) {
+    for (int x = x0; x <= x1; ++x) {
+      const Vec2d p{low.x + (x + 0.5) / edge * size.x, low.y + (y + 0.5) / edge * size.y};
+      if (left_of(p, a, b) && left_of(p, b, c) && left_of(p, c, a)) {
+        marked[static_cast<std::size_t>(y) * edge + x] = true;
+      }
+    }
+  }
+}
+
+std::vector<Vec2d> grid_samples(const Chart& chart, Vec2d low, Vec2d size, int edge) {
+  std::vector<bool> marked(static_cast<std::size_t>(edge) * edge);
+  for (const auto& triangle : chart.triangles) mark(triangle, low, size, edge, marked);
+  std::vector<Vec2d> samples;
+  for (int y = 0; y < edge; ++y) {
+    for (int x = 0; x < edge; ++x) {
+      if (!marked[static_cast<std::size_t>(y) * edge + x]) continue;
+      const Vec2d p{low.x + (x + 0.5) / edge * size.x, low.y + (y + 0.5) / edge * size.y};
+      if (!chart.mask || chart.mask->keeps(p)) samples.push_back(p);
+    }
+  }
+  return samples;
+}
+
+}  // namespace
+
+std::vector<Vec2d> even_samples(const Chart& chart, std::size_t least) {
+  Vec2d low = chart.triangles.front().front(), high = low;
+  for (const auto& triangle : chart.triangles) {
+    for (const Vec2d p : triangle) {
+      low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+      high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+    }
+  }
+  const Vec2d size{high.x - low.x, high.y - low.y};
+  std::vector<Vec2d> samples;
+  if (size.x > 0 && size.y > 0) {
+    for (int edge = kCoarsestGrid; edge <= kFinestGrid && samples.size() < least; edge *= 2) {
+      samples = grid_samples(chart, low, size, edge);
+    }
+  }
+  if (samples.empty()) samples.push_back(chart.centre);
+  return samples;
+}
+
+}  // namespace leafhull

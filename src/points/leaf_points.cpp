@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "points/leaf_points.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <string>
+
+#include "leafhull/error.h"
+#include "leaves/order.h"
+#include "leaves/sheets.h"
+#include "points/join.h"
+#include "points/place_parts.h"
+#include "points/samples.h"
+
+namespace leafhull {
+namespace {
+
+auto point_key(const LeafPoint& p) {
+  return std::tuple(p.position.x, p.position.y, p.position.z, p.area, p.normal.x, p.normal.y,
+                    p.normal.z, p.major.x, p.major.y, p.major.z, p.radius_major, p.radius_minor);
+}
+
+void sort_points(std::vector<LeafPoint>& points) {
+  std::vector<Vec3d> positions;
+  positions.reserve(points.size());
+  Box bounds;
+  for (const LeafPoint& point : points) {
+    positions.push_back(point.position);
+    bounds.include(point.position);
+  }
+  std::vector<LeafPoint> sorted;
+  sorted.reserve(points.size());
+  const auto order = morton_order(positions, bounds, [&](std::uint32_t a, std::uint32_t b) {
+    return point_key(points[a]) < point_key(points[b]);
+  });
+  for (const std::uint32_t i : order) sorted.push_back(points[i]);
+  points = std::move(sorted);
+}
+
+}  // namespace
+
+LeafPoints vertex_points(const LeafSet& leaves) {
+  LeafPoints result;
+  result.points.reserve(leaves.vertices.size());
+  result.samples.reserve(leaves.vertices.size());
+  for (const LeafVertex& v : leaves.vertices) {
+    result.points.push_back({v.position, v.normal, v.major, v.radius_major, v.radius_minor, 0});
+    result.samples.push_back(v.position);
+  }
+  return result;
+}
+
+LeafPoints area_points(const LeafSet& leaves, double spacing) {
+  const LeafSheets& sheets = *leaves.sheets;
+  if (sheets.sheets.empty()) {
+    throw Error(ErrorCode::input, "no leaf has a visible area: their textures are transparent there",
+                "Look at the model's textures and alpha modes, or give --points vertices.");
+  }
+  LeafPoints result;
+  result.points = join_in_cells(place_parts(sheets, spacing), spacing);
+  sort_points(result.points);
+  for (const LeafPoint& point : result.points) result.area += point.area;
+  result.samples = samples_of(sheets);
+  return result;
+}
+
+}  // namespace leafhull

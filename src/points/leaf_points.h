@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "leafhull/leaves.h"
+
+namespace leafhull {
+
+/// Where the kernels sit, and where the density is asked about.
+struct LeafPoints {
+  std::vector<LeafPoint> points;  ///< in an order that depends on the geometry alone
+  /// Places that stand for equal shares of the leaves: their vertices, or even samples of their
+  /// visible area. A coverage is a share of these.
+  std::vector<Vec3d> samples;
+  double area = 0;  ///< of all points, model units squared; 0 where they are vertices
+};
+
+/// Spacings below R_max over this make parts show: kernels of radius R_max around them no longer
+/// add up to an even sheet.
+inline constexpr double kLeastRadius = 2.5;
+
+/// A point at every leaf vertex, which has no area: the paper's way.
+LeafPoints vertex_points(const LeafSet& leaves);
+
+/// Parts of visible leaf area of about spacing^2 each, SPEC: 1b. A leaf is cut into
+/// ceil(area / spacing^2) parts, more where it is long; what is much smaller is joined within the
+/// cells of a lattice of edge `spacing`, and so is everything in cells that hold several layers:
+/// so the number of points is bounded by the area over spacing^2 and by the volume of the crown. A
+/// leaf that is one part keeps its ellipse; other parts have their own second moments and no radius
+/// in their plane below kLeastRadius * spacing.
+/// @param spacing model units, > 0.
+/// @throws Error usage where it would make more than ten million parts; input where no leaf is
+/// visible.
+LeafPoints area_points(const LeafSet& leaves, double spacing);
+
+}  // namespace leafhull

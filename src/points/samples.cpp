@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "points/samples.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "points/cut.h"
+
+namespace leafhull {
+namespace {
+
+/// So many tell a share of the area to within 0.5%.
+constexpr std::size_t kSamples = 1 << 14;
+/// Places on a chart to choose from.
+constexpr std::size_t kLeastPlaces = 64;
+
+/// The samples are at equal steps of the area, leaf by leaf; of each leaf those from `first` on.
+struct Taken {
+  std::size_t sheet, first, end;
+  double before;  ///< the area of the leaves before
+};
+
+std::vector<Taken> leaves_with_samples(const LeafSheets& sheets, double step) {
+  std::vector<Taken> taken;
+  double before = 0;
+  std::size_t first = 0;
+  for (std::size_t i = 0; i < sheets.sheets.size(); ++i) {
+    const double after = before + sheets.sheets[i].area;
+    const bool last = i + 1 == sheets.sheets.size();
+    const std::size_t end =
+        last ? kSamples
+             : std::min(kSamples, static_cast<std::size_t>(std::llround(std::floor(after / step + 0.5))));
+    if (end > first) taken.push_back({i, first, end, before});
+    first = std::max(first, end);
+    before = after;
+  }
+  return taken;
+}
+
+}  // namespace
+
+std::vector<Vec3d> samples_of(const LeafSheets& sheets) {
+  const double step = sheets.area / static_cast<double>(kSamples);
+  const std::vector<Taken> taken = leaves_with_samples(sheets, step);
+  std::vector<std::size_t> wanted(sheets.charts.size(), 0);
+  for (const Taken& t : taken) {
+    std::size_t& places = wanted[sheets.sheets[t.sheet].chart];
+    places = std::max({places, kLeastPlaces, 2 * (t.end - t.first)});
+  }
+  std::vector<std::vector<Vec2d>> places(sheets.charts.size());
+  tbb::parallel_for(std::size_t{0}, places.size(), [&](std::size_t c) {
+    if (wanted[c] > 0) places[c] = even_samples(sheets.charts[c], wanted[c]);
+  });
+  std::vector<Vec3d> samples;
+  samples.reserve(kSamples);
+  for (const Taken& t : taken) {
+    const Sheet& sheet = sheets.sheets[t.sheet];
+    const std::vector<Vec2d>& on_chart = places[sheet.chart];
+    for (std::size_t i = t.first; i < t.end; ++i) {
+      // How far into the leaf's own area the sample lies.
+      const double into = ((static_cast<double>(i) + 0.5) * step - t.before) / sheet.area;
+      const auto place = static_cast<std::size_t>(
+          std::clamp(into, 0.0, 1.0) * static_cast<double>(on_chart.size()));
+      samples.push_back(sheet.at(on_chart[std::min(place, on_chart.size() - 1)]));
+    }
+  }
+  return samples;
+}
+
+}  // namespace leafhull
