@@ -16,12 +16,13 @@
 
 namespace leafhull {
 
-/// A density function D_j: its centre, two of its axes and its radii after control; the third axis
-/// is normal x major. Source: Eqs. (3), (4), (8).
+/// A density function D_j: its centre, two of its axes, its radii after control and its weight; the
+/// third axis is normal x major. Source: Eqs. (3), (4), (8); the weight is ours, SPEC: 2.
 struct Kernel {
   Vec3d centre;                                     ///< c_j, model units
   Vec3f normal, major;                              ///< n_j, u_j, unit, orthogonal
   float radius_major, radius_minor, radius_normal;  ///< R_u, R_v, R_n, model units, > 0
+  float weight = 1;                                 ///< w_j, > 0
 };
 
 /// A closed triangle mesh, counter-clockwise seen from outside. A vertex is at origin +
