@@ -119,11 +119,11 @@ Json stages_of(const Case& c, Method method, Device& device, double peak) {
   const std::vector<Kernel> isotropic = isotropic_kernels(leaves.vertices, c.radius);
   const std::map<std::string, Pairs> pairs = {
       {"isotropic density",
-       {pairs_inside(isotropic, leaves.vertices), pairs_evaluated(isotropic, leaves, c.radius),
-        kPointFlops}},
+       {pairs_inside(isotropic, leaves.vertices),
+        pairs_evaluated(isotropic, leaves, c.radius, options.falloff), kPointFlops}},
       {"threshold",
        {pairs_inside(shape.kernels, leaves.vertices),
-        pairs_evaluated(shape.kernels, leaves, c.radius), kPointFlops}},
+        pairs_evaluated(shape.kernels, leaves, c.radius, options.falloff), kPointFlops}},
       {"field",
        {pairs_inside(shape.kernels, *shape.field), shape.report.counts.evaluated_pairs,
         kFieldFlops}}};

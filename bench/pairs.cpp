@@ -106,9 +106,9 @@ std::uint64_t pairs_inside(std::span<const Kernel> kernels, std::span<const Leaf
 }
 
 std::uint64_t pairs_evaluated(std::span<const Kernel> kernels, const LeafSet& leaves,
-                              double radius_max) {
+                              double radius_max, int falloff) {
   const auto hash = std::make_shared<const SpatialHash>(kernels, hash_cells(leaves, radius_max));
-  const KernelSet set(kernels, hash, leaf_lattice(leaves, radius_max));
+  const KernelSet set(kernels, hash, leaf_lattice(leaves, radius_max), falloff);
   std::vector<leafhull::Vec3d> points;
   for (const LeafVertex& leaf : leaves.vertices) {
     points.push_back(set.lattice().local(leaf.position));

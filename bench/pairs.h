@@ -16,8 +16,8 @@ std::uint64_t pairs_inside(std::span<const Kernel> kernels, const Field& field);
 std::uint64_t pairs_inside(std::span<const Kernel> kernels, std::span<const LeafVertex> leaves);
 
 /// How many pairs the engine evaluates to sum `kernels` at the leaf vertices. `radius_max`: model
-/// units.
+/// units. `falloff`: k.
 std::uint64_t pairs_evaluated(std::span<const Kernel> kernels, const LeafSet& leaves,
-                              double radius_max);
+                              double radius_max, int falloff);
 
 }  // namespace leafhull::bench

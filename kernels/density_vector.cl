@@ -15,7 +15,8 @@
 #define SUB_BRICKS 8
 #define SUB_BRICK_SAMPLES 64
 
-// Half the extent of a sub-brick's samples, more by the rounding of a position; and that of xi.
+// Half the extent of a sub-brick's samples, more by the rounding of a position; and that of xi, a
+// share of the top.
 #define HALF 1.500015f
 #define XI_SLACK 1.0001f
 
@@ -44,8 +45,8 @@ static void test_run(global const Kernel* kernels, global const uint* list, int 
     const float8 near_x = fmax(fabs(mx) - HALF * (k->xx + fabs(k->xy) + fabs(k->xz)), 0.0f);
     const float8 near_y = fmax(fabs(my) - HALF * (k->yy + fabs(k->yz)), 0.0f);
     const float8 near_z = fmax(fabs(mz) - HALF * k->zz, 0.0f);
-    const float8 xi_min = fma(near_x, near_x, fma(near_y, near_y, near_z * near_z));
-    reached |= as_uint8(xi_min < XI_SLACK) & (FIRST_OF_RUN >> i);
+    const float8 least = fma(near_x, near_x, fma(near_y, near_y, near_z * near_z));
+    reached |= as_uint8(least < XI_SLACK * k->top) & (FIRST_OF_RUN >> i);
   }
   vstore8(reached, 0, run->reached);
 }
@@ -65,7 +66,7 @@ static void sum_run(global const Kernel* kernels, global const uint* list, const
     const float* m = (const float*)run->from_kernel[i] + sub_brick;
     const float16 pz = fma((float16)(k->zz), z, (float16)(m[2 * SUB_BRICKS]));
     const float16 py = fma((float16)(k->yy), y, fma((float16)(k->yz), z, (float16)(m[SUB_BRICKS])));
-    const float16 w_yz = fma(-pz, pz, fma(-py, py, (float16)(1.0f)));
+    const float16 w_yz = fma(-pz, pz, fma(-py, py, (float16)(k->top)));
     float16 px = fma((float16)(k->xy), y, fma((float16)(k->xz), z, (float16)(m[0] - 1.5f * k->xx)));
 #define ADD_SLAB(n)                                              \
   {                                                              \

@@ -10,9 +10,9 @@
 #define TILE 64
 #endif
 
-// A kernel as the brick sees it: U, and U . (origin of the brick - centre).
+// A kernel as the brick sees it: U, U . (origin of the brick - centre) and its top.
 typedef struct {
-  float xx, xy, xz, yy, yz, zz, mx, my, mz;
+  float xx, xy, xz, yy, yz, zz, mx, my, mz, top;
 } Near;
 
 // Arguments as in density_vector.cl.
@@ -44,6 +44,7 @@ kernel __attribute__((reqd_work_group_size(WORK_ITEMS, 1, 1))) void density_bric
       tile[item].mx = -fma(k->xx, cx, fma(k->xy, cy, k->xz * cz));
       tile[item].my = -fma(k->yy, cy, k->yz * cz);
       tile[item].mz = -k->zz * cz;
+      tile[item].top = k->top;
     }
     barrier(CLK_LOCAL_MEM_FENCE);
     for (uint t = 0; t < count; ++t) {
@@ -51,7 +52,7 @@ kernel __attribute__((reqd_work_group_size(WORK_ITEMS, 1, 1))) void density_bric
       const float pz = fma(k->zz, z, k->mz);
       const float py = fma(k->yy, y, fma(k->yz, z, k->my));
       const float px = fma(k->xx, x, fma(k->xy, y, fma(k->xz, z, k->mx)));
-      const float w_yz = fma(-pz, pz, fma(-py, py, 1.0f));
+      const float w_yz = fma(-pz, pz, fma(-py, py, k->top));
       float w = fmax(fma(-px, px, w_yz), 0.0f);
       near = ADD_POWER(near, w);
       const float far_x = fma(4.0f, k->xx, px);

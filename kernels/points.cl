@@ -80,7 +80,7 @@ static Sample density_at(global const Kernel* kernels, global const uint* list,
     const real u = fma(REAL(k->xx), dx, fma(REAL(k->xy), dy, k->xz * dz));
     const real v = fma(REAL(k->yy), dy, k->yz * dz);
     const real n = k->zz * dz;
-    const real w = fmax(fma(-u, u, fma(-n, n, fma(-v, v, REAL(1.0f)))), REAL(0.0f));
+    const real w = fmax(fma(-u, u, fma(-n, n, fma(-v, v, REAL(k->top)))), REAL(0.0f));
     s.density = ADD_POWER(s.density, w);
     // grad D = -2 k w^(k-1) U^T (u, v, n), its constant factor last; w = 0 leaves nothing.
     const real slope = SLOPE(w);

@@ -16,8 +16,8 @@
 
 namespace leafhull {
 
-/// A density function D_j: its centre, two of its axes and its radii after control; the third axis
-/// is normal x major. Source: Eqs. (3), (4), (8).
+/// A density function D_j: its centre, two of its axes, its radii after control and its weight; the
+/// third axis is normal x major. Source: Eqs. (3), (4), (8); the weight is ours, SPEC: 2.
 struct Kernel {
   Vec3d centre;                                     ///< c_j, model units
   Vec3f normal, major;                              ///< n_j, u_j, unit, orthogonal

@@ -23,7 +23,7 @@ float largest_radius(std::span<const Kernel> kernels) {
 }  // namespace
 
 KernelSet::KernelSet(std::span<const Kernel> kernels, std::shared_ptr<const SpatialHash> hash,
-                     const Lattice& lattice)
+                     const Lattice& lattice, int falloff)
     : hash_(std::move(hash)),
       lattice_(lattice),
       kernels_(kernels.size()),
@@ -32,7 +32,7 @@ KernelSet::KernelSet(std::span<const Kernel> kernels, std::shared_ptr<const Spat
   const std::span<const std::uint32_t> order = hash_->order();
   tbb::parallel_for(std::size_t{0}, order.size(), [&](std::size_t rank) {
     const Kernel& kernel = kernels[order[rank]];
-    kernels_[rank] = to_lattice(kernel, lattice_);
+    kernels_[rank] = to_lattice(kernel, lattice_, falloff);
     radii_[rank] =
         static_cast<float>(static_cast<double>(largest_radius(kernel)) / lattice_.voxel_size);
   });

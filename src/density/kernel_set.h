@@ -15,9 +15,9 @@ class KernelSet {
  public:
   /// No kernels.
   KernelSet() = default;
-  /// `hash` is over the centres of `kernels`.
+  /// `hash` is over the centres of `kernels`, `falloff` the k that they are summed with.
   KernelSet(std::span<const Kernel> kernels, std::shared_ptr<const SpatialHash> hash,
-            const Lattice& lattice);
+            const Lattice& lattice, int falloff);
   /// Of kernels that are on the lattice already, by rank in `hash`; none has a radius above `reach`
   /// voxels. Without radii().
   KernelSet(std::vector<LatticeKernel> kernels, std::shared_ptr<const SpatialHash> hash,

@@ -1,24 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cmath>
+
 #include "density/lattice.h"
 #include "leafhull/shape.h"
 
 namespace leafhull {
 
-/// A kernel in lattice units, as the device reads it (`Kernel` of density.clh): xi(p) = |U d|^2 for
-/// d = p - cell - offset and U upper triangular. U has the same U^T U as the axes over their radii
-/// (Eq. 3), so xi is the same and takes fewer products.
+/// A kernel in lattice units, as the device reads it (`Kernel` of density.clh): with
+/// d = p - cell - offset and U upper triangular D(p) = (h - |U d|^2)^k where |U d|^2 <= h. That is
+/// w (1 - xi)^k for h = w^(1/k) and |U d|^2 = h xi, so that a weight costs no product in a sum. U
+/// has the same U^T U as the axes over their radii (Eq. 3), h times, in fewer products.
 struct LatticeKernel {
   Coord cell;                    ///< holds the centre
   Vec3f offset;                  ///< of the centre in its cell, [0, 1)
-  float xx, xy, xz, yy, yz, zz;  ///< U, row by row, 1 / voxels; xx, yy, zz > 0
+  float xx, xy, xz, yy, yz, zz;  ///< U, row by row, sqrt(h) / voxels; xx, yy, zz > 0
+  float top;                     ///< h, the root of the weight: 1 where the weight is
 };
-static_assert(sizeof(LatticeKernel) == 48);
+static_assert(sizeof(LatticeKernel) == 52);
 
 // N is summed in floats, here and on the device. Bounds on xi give way by more than the rounding of
 // a position (a share of the box, as thin kernels magnify it, and of how far kernels are) and of
-// xi.
+// xi. All roundings of h - |U d|^2 are shares of h and of |U d|^2, so the slack of xi is one of h.
 inline constexpr float kPositionSlack = 1e-5f;
 inline constexpr float kDistanceSlack = 4e-7f;
 inline constexpr float kXiSlack = 1e-4f;
@@ -41,26 +45,36 @@ inline KernelForm form_of(const Kernel& kernel) {
           over(normal, kernel.radius_normal)};
 }
 
-/// A kernel around `centre`, model units, without its form.
-inline LatticeKernel to_lattice(Vec3d centre, const Lattice& lattice) {
-  const Vec3d local = lattice.local(centre);
-  const Coord cell = cell_of(local);
-  return {cell, Vec3f(local - to_vec3d(cell)), 0, 0, 0, 0, 0, 0};
+/// h = w^(1/k).
+inline float top_of(float weight, int falloff) {
+  return falloff == 1 ? weight : falloff == 2 ? std::sqrt(weight) : std::cbrt(weight);
 }
 
+/// A kernel around `centre`, model units, without its form.
+inline LatticeKernel to_lattice(Vec3d centre, float top, const Lattice& lattice) {
+  const Vec3d local = lattice.local(centre);
+  const Coord cell = cell_of(local);
+  return {cell, Vec3f(local - to_vec3d(cell)), 0, 0, 0, 0, 0, 0, top};
+}
+
+/// By how much U is larger than for a weight of 1; from the rounded h, so that a support keeps its
+/// radii.
+inline double growth_of(float top) { return std::sqrt(static_cast<double>(top)); }
+
 /// A sphere.
-inline LatticeKernel to_lattice(Vec3d centre, double radius, const Lattice& lattice) {
-  LatticeKernel local = to_lattice(centre, lattice);
-  local.xx = local.yy = local.zz = static_cast<float>(lattice.voxel_size / radius);
+inline LatticeKernel to_lattice(Vec3d centre, double radius, float top, const Lattice& lattice) {
+  LatticeKernel local = to_lattice(centre, top, lattice);
+  local.xx = local.yy = local.zz = static_cast<float>(growth_of(top) * lattice.voxel_size / radius);
   return local;
 }
 
 /// U comes from the axes by Gram-Schmidt on their columns, the R of a QR decomposition: unlike a
 /// Cholesky factor of U^T U it keeps its digits where a kernel is thin.
-inline LatticeKernel to_lattice(Vec3d centre, const KernelForm& form, const Lattice& lattice) {
-  LatticeKernel local = to_lattice(centre, lattice);
-  const Vec3d u = form.u * lattice.voxel_size, v = form.v * lattice.voxel_size,
-              n = form.n * lattice.voxel_size;
+inline LatticeKernel to_lattice(Vec3d centre, const KernelForm& form, float top,
+                                const Lattice& lattice) {
+  LatticeKernel local = to_lattice(centre, top, lattice);
+  const double scale = growth_of(top) * lattice.voxel_size;
+  const Vec3d u = form.u * scale, v = form.v * scale, n = form.n * scale;
   const Vec3d x(u.x, v.x, n.x);
   Vec3d y(u.y, v.y, n.y), z(u.z, v.z, n.z);
 
@@ -75,10 +89,12 @@ inline LatticeKernel to_lattice(Vec3d centre, const KernelForm& form, const Latt
   return local;
 }
 
-inline LatticeKernel to_lattice(const Kernel& kernel, const Lattice& lattice) {
+/// `falloff`: k, which the root of the weight depends on.
+inline LatticeKernel to_lattice(const Kernel& kernel, const Lattice& lattice, int falloff) {
+  const float top = top_of(kernel.weight, falloff);
   return is_isotropic(kernel)
-             ? to_lattice(kernel.centre, static_cast<double>(kernel.radius_major), lattice)
-             : to_lattice(kernel.centre, form_of(kernel), lattice);
+             ? to_lattice(kernel.centre, static_cast<double>(kernel.radius_major), top, lattice)
+             : to_lattice(kernel.centre, form_of(kernel), top, lattice);
 }
 
 }  // namespace leafhull

@@ -24,6 +24,7 @@ struct alignas(32) KernelGroups::Group {
   Ints cell_x, cell_y, cell_z;  // of the centres
   Floats x, y, z;               // offsets within
   Floats xx, xy, xz, yy, yz, zz;
+  Floats reached;  // the square of U d at which the support ends, rounding included
 };
 
 /// Eight boxes, those around the centres of a group each.
@@ -41,12 +42,13 @@ KernelGroups::KernelGroups(std::span<const LatticeKernel> kernels)
     Group& group = groups_[g];
     const auto members = kernels.subspan(g * kGroup, std::min(kGroup, kernels.size() - g * kGroup));
     for (std::size_t i = 0; i < kGroup; ++i) {
-      const LatticeKernel out_of_reach{members[0].cell, {0, 0, kFarAway}, 0, 0, 0, 0, 0, 1};
+      const LatticeKernel out_of_reach{members[0].cell, {0, 0, kFarAway}, 0, 0, 0, 0, 0, 1, 1};
       const LatticeKernel& k = i < members.size() ? members[i] : out_of_reach;
       group.cell_x[i] = k.cell.x, group.cell_y[i] = k.cell.y, group.cell_z[i] = k.cell.z;
       group.x[i] = k.offset.x, group.y[i] = k.offset.y, group.z[i] = k.offset.z;
       group.xx[i] = k.xx, group.xy[i] = k.xy, group.xz[i] = k.xz;
       group.yy[i] = k.yy, group.yz[i] = k.yz, group.zz[i] = k.zz;
+      group.reached[i] = k.top * (1.0f + kXiSlack);
     }
   });
 }
@@ -146,7 +148,7 @@ FOR_EVERY_VECTOR_WIDTH std::size_t list_reaching(const Group* groups, const std:
     const Floats ey = half.y * k.yy + half.z * absolute(k.yz);
     const Floats ez = half.z * k.zz;
     const Floats x = positive(mx - ex), y = positive(my - ey), z = positive(mz - ez);
-    const Ints reaches = x * x + y * y + z * z < 1.0f + kXiSlack;
+    const Ints reaches = x * x + y * y + z * z < k.reached;
     size += list_lanes(reaches, gathered[place] * static_cast<std::uint32_t>(kGroup), list + size);
   }
   return size;

@@ -42,7 +42,7 @@ class NearKernels {
 
   /// Appends the ranks of the kernels whose support may reach `box`, rounding included, ascending.
   /// With d from a kernel's centre to that of the box, m_r = |U_r d| and
-  /// e_r = |U_r| . (high - low) / 2 for each row r of U: sum max(0, m_r - e_r)^2 <= xi over the
+  /// e_r = |U_r| . (high - low) / 2 for each row r of U: sum max(0, m_r - e_r)^2 <= h xi over the
   /// box. SPEC: 5, with the rows of U for the axes.
   void append_reaching(const LocalBox& box, std::vector<std::uint32_t>& ranks);
 

@@ -8,7 +8,7 @@
 namespace leafhull {
 namespace {
 
-/// The rounding of a sum of many terms.
+/// The rounding of a sum of many terms, none below 0, as a share of it whatever their weights.
 double rounding(std::size_t terms) { return 1e-5 + 1.2e-7 * static_cast<double>(terms); }
 
 struct Outcome {
@@ -42,9 +42,9 @@ void test(std::span<const LatticeKernel> kernels, std::span<const std::uint32_t>
     const Floats far_x = mx + ex, far_y = my + ey, far_z = mz + ez;
     const Floats nearest = near_x * near_x + near_y * near_y + near_z * near_z;
     const Floats farthest = far_x * far_x + far_y * far_y + far_z * far_z;
-    low += power(positive(1.0f - farthest - kXiSlack * (1.0f + farthest)));
-    high += power(positive(1.0f - nearest + kXiSlack * (1.0f + nearest)));
-    const Ints reaches = nearest < 1.0f + kXiSlack;  // -1 where true
+    low += power(positive(k.top - farthest - kXiSlack * (k.top + farthest)));
+    high += power(positive(k.top - nearest + kXiSlack * (k.top + nearest)));
+    const Ints reaches = nearest < k.top * (1.0f + kXiSlack);  // -1 where true
     for (int octant = 0; octant < 8; ++octant) {
       const std::uint32_t size = outcome.sizes[octant];
       outcome.lists[octant][size] = rank;

@@ -24,7 +24,7 @@ class OctantLists {
  public:
   /// Takes the kernels from `ranks`, keeping their order. With d from a kernel's centre to that of
   /// an octant, m_r = |U_r d| and e_r = half * sum |U_r| for each row r of U,
-  ///   sum max(0, m_r - e_r)^2 <= xi <= sum (m_r + e_r)^2
+  ///   sum max(0, m_r - e_r)^2 <= h xi <= sum (m_r + e_r)^2
   /// over the octant; rounding is allowed for. `reach`: voxels. SPEC: 5, with the rows of U for
   /// the axes.
   void narrow(std::span<const LatticeKernel> kernels, std::span<const std::uint32_t> ranks,

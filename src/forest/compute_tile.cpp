@@ -51,8 +51,10 @@ class Place {
     }
     const std::vector<float> isotropic = isotropic_at(local_centres(runs), runs);
     return density(runs, [&](const ForestModel& model, std::size_t j, std::size_t at) {
-      return controlled_kernel(model.leaves[j], isotropic[at], *level_.scene_statistics,
-                               model.radius_max, level_.options);
+      Kernel kernel = controlled_kernel(model.leaves[j], isotropic[at], *level_.scene_statistics,
+                                        model.radius_max, level_.options);
+      kernel.weight = model.kernels[j].weight;
+      return kernel;
     });
   }
 

@@ -102,7 +102,7 @@ KernelSet placed_kernels(const Scene& scene, const ForestLevel& level,
   std::vector<LatticeKernel> kernels(rank.size());
   for_each_kernel(scene, level, runs,
                   [&](const TreeMap& map, const ForestModel& model, std::size_t j, std::size_t at) {
-                    kernels[rank[at]] = map(kernel(model, j, at), lattice);
+                    kernels[rank[at]] = map(kernel(model, j, at), lattice, level.options.falloff);
                   });
   return {std::move(kernels), hash, lattice, level.reach / level.voxel_size};
 }

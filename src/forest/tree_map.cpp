@@ -38,16 +38,17 @@ Box TreeMap::operator()(const Box& box) const {
   return {centre - r, centre + r};
 }
 
-LatticeKernel TreeMap::operator()(const Kernel& kernel, const Lattice& lattice) const {
+LatticeKernel TreeMap::operator()(const Kernel& kernel, const Lattice& lattice, int falloff) const {
   const Vec3d centre = (*this)(kernel.centre);
+  const float top = top_of(kernel.weight, falloff);
   if (similar_ && is_isotropic(kernel)) {
-    return to_lattice(centre, static_cast<double>(kernel.radius_major) * scale_, lattice);
+    return to_lattice(centre, static_cast<double>(kernel.radius_major) * scale_, top, lattice);
   }
   const KernelForm form = form_of(kernel);
   const auto carried = [&](Vec3d axis) {
     return Vec3d(dot(axis, over_x_), dot(axis, over_y_), dot(axis, over_z_));
   };
-  return to_lattice(centre, {carried(form.u), carried(form.v), carried(form.n)}, lattice);
+  return to_lattice(centre, {carried(form.u), carried(form.v), carried(form.n)}, top, lattice);
 }
 
 }  // namespace leafhull

@@ -16,8 +16,8 @@ class TreeMap {
   Vec3d operator()(Vec3d p) const { return linear(p) + position_; }
   /// The axis-aligned box around a box's image.
   Box operator()(const Box& box) const;
-  /// A kernel of the model, placed.
-  LatticeKernel operator()(const Kernel& kernel, const Lattice& lattice) const;
+  /// A kernel of the model, placed; it keeps its weight. `falloff`: k.
+  LatticeKernel operator()(const Kernel& kernel, const Lattice& lattice, int falloff) const;
   /// By how much lengths grow at most.
   double stretch() const { return stretch_; }
   /// By how much volumes grow, >= 0.

@@ -21,7 +21,7 @@ class DensityFunction {
   /// `hash` is over the centres of `kernels`.
   DensityFunction(Device& device, std::span<const Kernel> kernels,
                   std::shared_ptr<const SpatialHash> hash, const Lattice& lattice, int falloff)
-      : DensityFunction(device, KernelSet(kernels, std::move(hash), lattice), falloff) {}
+      : DensityFunction(device, KernelSet(kernels, std::move(hash), lattice, falloff), falloff) {}
   DensityFunction(Device& device, KernelSet kernels, int falloff)
       : kernels_(std::move(kernels)), evaluator_(device, kernels_, falloff), falloff_(falloff) {}
   DensityFunction(const DensityFunction&) = delete;

@@ -107,7 +107,8 @@ FieldMemory::FieldMemory(std::span<const Kernel> kernels, std::shared_ptr<const 
   if (fits()) return;
   const double finer = std::max(1.0, report.resolution / kCoarseResolution);
   const KernelSet coarse(kernels, std::move(hash),
-                         Lattice::near(bounds.low, report.voxel_size * finer));
+                         Lattice::near(bounds.low, report.voxel_size * finer),
+                         report.options.falloff);
   needed_ =
       kBytesPerVoxel * evaluated_samples(coarse, report, thresholds) * std::pow(finer, power_);
 }
