@@ -66,7 +66,7 @@ class Place {
     for (const Vec3d& p : centres_of(scene_, level_, runs)) around.include(p);
     const std::vector<KernelRun> wide = runs_near(around);
     return density(wide,
-                   [](const ForestModel& model, std::size_t j, std::size_t) {
+                   [this](const ForestModel& model, std::size_t j, std::size_t) {
                      const double r = model.radius_max;
                      return isotropic_kernels(std::span(model.leaves).subspan(j, 1), r,
                                               level_.options.falloff)

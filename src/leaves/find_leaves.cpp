@@ -177,9 +177,8 @@ std::string untextured_warning(std::size_t count) {
 }
 
 std::string invisible_warning(std::size_t count) {
-  return count == 1 ? "1 leaf shows nothing of its texture that is not transparent"
-                    : std::to_string(count) +
-                          " leaves show nothing of their texture that is not transparent";
+  if (count == 1) return "1 leaf shows nothing of its texture that is not transparent";
+  return std::to_string(count) + " leaves show nothing of their texture that is not transparent";
 }
 
 std::string no_usable_leaf(std::size_t dropped, const std::string& file) {
