@@ -44,7 +44,7 @@ struct Options {
   std::optional<double> flatness;  ///< lambda_R
   std::optional<PointSource> points;
   std::optional<double> point_spacing;  ///< s, of PointSource::area, over R_max
-  int falloff = 2;                 ///< k
+  int falloff = 2;                      ///< k
   Spread spread = Spread::stddev;
   DensitySource density = DensitySource::exact;
   double band_low = 0;   ///< a1
@@ -82,8 +82,8 @@ std::string_view name(Enum value) {
 int resolution_of(Preset preset);
 
 /// `options` with the style's values where nothing was asked for, everything checked. Afterwards
-/// `method`, `radius_max`, `flatness`, `points`, `point_spacing` and `min_component` are set, exactly
-/// one of the three thresholds is, and `resolution` or `voxel_size` is.
+/// `method`, `radius_max`, `flatness`, `points`, `point_spacing` and `min_component` are set,
+/// exactly one of the three thresholds is, and `resolution` or `voxel_size` is.
 /// @throws Error usage: a value out of range, or two options that contradict each other.
 Options resolve(Options options);
 
@@ -96,10 +96,9 @@ struct OptionRow {
       std::variant<bool Options::*, int Options::*, double Options::*,
                    std::optional<int> Options::*, std::optional<double> Options::*,
                    Style Options::*, std::optional<Method> Options::*, RadiusUnit Options::*,
-                   std::optional<PointSource> Options::*,
-                   Spread Options::*, DensitySource Options::*, Mesher Options::*,
-                   std::optional<Preset> Options::*, std::vector<std::string> Options::*,
-                   std::optional<TextureEllipse> Options::*>;
+                   std::optional<PointSource> Options::*, Spread Options::*,
+                   DensitySource Options::*, Mesher Options::*, std::optional<Preset> Options::*,
+                   std::vector<std::string> Options::*, std::optional<TextureEllipse> Options::*>;
 
   /// As in the flag --name and, with underscores, in the report. What is on by default has the
   /// flag --no-name.

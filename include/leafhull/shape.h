@@ -53,7 +53,8 @@ struct Metrics {
 
 /// Places on the leaves are their vertices or, with PointSource::area, samples of equal area.
 struct Counts {
-  std::uint64_t leaves = 0, leaf_vertices = 0, leaf_points = 0, dropped_leaves = 0, split_components = 0;
+  std::uint64_t leaves = 0, leaf_vertices = 0, leaf_points = 0, dropped_leaves = 0,
+                split_components = 0;
   std::uint64_t evaluated_voxels = 0, evaluated_pairs = 0;
   std::uint64_t mesh_vertices = 0, mesh_triangles = 0, components = 0, dropped_components = 0;
 };

@@ -11,8 +11,8 @@
 namespace leafhull {
 
 /// Mean and variance of N_iso over the leaf points, by their area, and the densities p1 and p2
-/// between which kernels go from isotropic to the shape of their leaf. Source: Eqs. (9), (10); the paper prints
-/// the variance for the spread (SPEC: 3, open point).
+/// between which kernels go from isotropic to the shape of their leaf. Source: Eqs. (9), (10); the
+/// paper prints the variance for the spread (SPEC: 3, open point).
 DensityStatistics density_statistics(std::span<const LeafPoint> leaves,
                                      std::span<const float> isotropic_density,
                                      const Options& resolved);
@@ -20,9 +20,9 @@ DensityStatistics density_statistics(std::span<const LeafPoint> leaves,
 /// The same from a mean and a variance.
 DensityStatistics band(double mean, double variance, const Options& resolved);
 
-/// The kernels that measure N_iso: radius `radius_max` (model units) in every direction. A kernel of
-/// leaf area a has the weight (k + 1) a / (pi R_u R_v), so that N counts layers of leaf; one at a
-/// vertex has 1. SPEC: 2.
+/// The kernels that measure N_iso: radius `radius_max` (model units) in every direction. A kernel
+/// of leaf area a has the weight (k + 1) a / (pi R_u R_v), so that N counts layers of leaf; one at
+/// a vertex has 1. SPEC: 2.
 std::vector<Kernel> isotropic_kernels(std::span<const LeafPoint> leaves, double radius_max,
                                       int falloff);
 

@@ -28,7 +28,7 @@ struct ForestModel {
   std::vector<float> isotropic_density;  ///< N_iso there, of the tree alone
   std::vector<float> density;            ///< N at the places on its leaves, of the tree alone
   double area = 0;                       ///< of its leaf points; 0 where they are vertices
-  double radius_max = 0;                          ///< R_max
+  double radius_max = 0;                 ///< R_max
   std::vector<KernelGroup> groups;
   Box bounds;        ///< of the centres
   double reach = 0;  ///< the largest radius, R_max included

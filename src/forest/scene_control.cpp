@@ -111,7 +111,8 @@ void control_over_scene(const Scene& scene, const TilePlan& plan, int edge,
   const auto task = [&](std::size_t t) { return TileTask{plan.tiles()[t], edge, plan.trees(t)}; };
   Moments mine;
   for_each_tile(plan, ranks, advance, [&](std::size_t t) {
-    for (const WeightedDensity& n : isotropic_density_in(scene, level, task(t), device)) mine.add(n);
+    for (const WeightedDensity& n : isotropic_density_in(scene, level, task(t), device))
+      mine.add(n);
   });
   const Moments moments = together(mine, ranks);
   level.scene_statistics = band(moments.mean(), moments.variance(), level.options);

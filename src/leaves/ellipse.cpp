@@ -68,10 +68,7 @@ std::optional<TextureMap> fit_map(const LeafMesh& leaf, std::span<const Vec2f> u
   }
   if (!(spread.determinant() > kLeastSpread * spread.trace() * spread.trace())) return {};
 
-  TextureMap map{joint * spread.inverse(),
-                 {},
-                 0,
-                 {{low.x(), low.y()}, {high.x(), high.y()}}};
+  TextureMap map{joint * spread.inverse(), {}, 0, {{low.x(), low.y()}, {high.x(), high.y()}}};
   map.origin = mean_point - map.linear * mean_uv;
   for (const auto& [point, uv] : pairs) {
     const Eigen::Vector3d image = mean_point + map.linear * (uv - mean_uv);

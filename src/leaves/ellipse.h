@@ -21,7 +21,8 @@ struct TextureSource {
   bool draws() const { return ellipse || mask; }
 };
 
-/// The least-squares affine map from a leaf's texture coordinates to its points: origin + linear uv.
+/// The least-squares affine map from a leaf's texture coordinates to its points: origin + linear
+/// uv.
 struct TextureMap {
   Eigen::Matrix<double, 3, 2> linear;
   Eigen::Vector3d origin;

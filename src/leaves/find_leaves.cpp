@@ -231,8 +231,9 @@ LeafSet find_leaves(const TreeModel& tree, std::span<const Instance> instances,
     leaves.warnings.push_back(untextured_warning(collector.untextured()));
   }
   for (const std::string& material : collector.hidden()) {
-    leaves.warnings.push_back("the texture of material '" + material +
-                              "' is transparent everywhere; its leaves are taken as whole triangles");
+    leaves.warnings.push_back(
+        "the texture of material '" + material +
+        "' is transparent everywhere; its leaves are taken as whole triangles");
   }
   for (const LeafVertex& vertex : leaves.vertices) leaves.bounds.include(vertex.position);
   sort_vertices(leaves);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <tuple>
 
 #include "leaves/order.h"
@@ -12,7 +13,7 @@ namespace {
 
 /// The sides of a leaf that has both differ by less than this share in area.
 constexpr double kSameArea = 0.01;
-/// Outlines are told apart by coordinates of this precision, in half axes.
+/// Outlines are told apart by coordinates of this precision, in sides of their largest face.
 constexpr double kOutlineSteps = 4096;
 
 Vec3d to_vec3d(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
@@ -38,27 +39,27 @@ struct Axes {
   Eigen::Vector3d origin, across, along;
 };
 
-/// The corners of a triangle as (0, 0), (1, 0), (0, 1): one chart for all.
-Axes axes_of_triangle(const LeafMesh& leaf, std::size_t face) {
-  const auto [a, b, c] = leaf.triangles[face];
+/// Two sides of the largest of some faces, so that alike leaves have alike coordinates, whatever
+/// way they are turned.
+Axes axes_of_faces(const LeafMesh& leaf, std::span<const std::size_t> faces) {
+  constexpr double kClearlyLarger = 1 + 1e-5;
+  std::size_t largest = faces.front();
+  for (const std::size_t face : faces) {
+    if (leaf.areas[face].norm() > kClearlyLarger * leaf.areas[largest].norm()) largest = face;
+  }
+  const auto [a, b, c] = leaf.triangles[largest];
   return {leaf.points[a], leaf.points[b] - leaf.points[a], leaf.points[c] - leaf.points[a]};
 }
 
-/// The half axes of the leaf, about its middle.
-Axes axes_of_plane(const LeafMesh& leaf, const LeafEllipse& ellipse) {
-  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
-  for (const Eigen::Vector3d& point : leaf.points) middle += point;
-  const Eigen::Vector3d across = ellipse.major - ellipse.normal * ellipse.normal.dot(ellipse.major);
-  const Eigen::Vector3d along = ellipse.normal.cross(across).normalized() * ellipse.minor.norm();
-  return {middle / static_cast<double>(leaf.points.size()), across, along};
-}
-
+/// Where a point lies along both axes, across from which it does not count.
 Vec2d in_plane(const Axes& axes, const Eigen::Vector3d& point) {
-  const auto coordinate = [&](const Eigen::Vector3d& axis) {
-    const double share = (point - axes.origin).dot(axis) / axis.squaredNorm();
-    return std::round(share * kOutlineSteps) / kOutlineSteps;
+  const Eigen::Vector3d normal = axes.across.cross(axes.along);
+  const Eigen::Vector3d offset = point - axes.origin;
+  const auto rounded = [&](const Eigen::Vector3d& perpendicular) {
+    return std::round(offset.dot(perpendicular) / normal.squaredNorm() * kOutlineSteps) /
+           kOutlineSteps;
   };
-  return {coordinate(axes.across), coordinate(axes.along)};
+  return {rounded(axes.along.cross(normal)), rounded(normal.cross(axes.across))};
 }
 
 auto sheet_key(const Sheet& s) {
@@ -101,12 +102,11 @@ void SheetCollector::take(const LeafMesh& leaf, const LeafEllipse& ellipse,
                           const TextureSource& texture, const Eigen::Vector3d& first,
                           double scale) {
   const std::vector<std::size_t> faces = faces_of_one_side(leaf, ellipse.normal);
+  if (faces.empty()) return;
   const bool textured = ellipse.map && texture.mask;
-  const Axes axes = textured
-                        ? Axes{ellipse.map->origin, ellipse.map->linear.col(0),
-                               ellipse.map->linear.col(1)}
-                    : faces.size() == 1 ? axes_of_triangle(leaf, faces.front())
-                                        : axes_of_plane(leaf, ellipse);
+  const Axes axes =
+      textured ? Axes{ellipse.map->origin, ellipse.map->linear.col(0), ellipse.map->linear.col(1)}
+               : axes_of_faces(leaf, faces);
   Triangles triangles;
   for (const std::size_t face : faces) {
     std::array<Vec2d, 3> corners;
@@ -114,8 +114,6 @@ void SheetCollector::take(const LeafMesh& leaf, const LeafEllipse& ellipse,
       if (textured) {
         const Vec2f uv = texture.uvs[leaf.faces[face].vertex[i]];
         corners[i] = {static_cast<double>(uv.x), static_cast<double>(uv.y)};
-      } else if (faces.size() == 1) {
-        corners[i] = {i == 1 ? 1.0 : 0.0, i == 2 ? 1.0 : 0.0};
       } else {
         corners[i] = in_plane(axes, leaf.points[leaf.triangles[face][i]]);
       }

@@ -11,9 +11,8 @@
 namespace leafhull {
 namespace {
 
-constexpr std::string_view kStyleNames[] = {"painterly", "thin",       "fat",
-                                            "previous",  "paper-thin", "paper-fat",
-                                            "paper-previous"};
+constexpr std::string_view kStyleNames[] = {"painterly",  "thin",      "fat",           "previous",
+                                            "paper-thin", "paper-fat", "paper-previous"};
 constexpr std::string_view kMethodNames[] = {"isotropic", "uncontrolled", "controlled"};
 constexpr std::string_view kPointSourceNames[] = {"area", "vertices"};
 constexpr std::string_view kRadiusUnitNames[] = {"crown", "leaf", "model"};

@@ -75,10 +75,11 @@ void warn_of_points(const LeafSet& leaves, const Options& options, std::span<con
   char text[240];
   if (options.points == PointSource::vertices && options.method != Method::isotropic &&
       leaves.mean_radius_major > report.radius_max_model) {
-    std::snprintf(text, sizeof text,
-                  "the leaves' mean radius, %.3g model units, is above R_max, %.3g: kernels at their "
-                  "vertices leave their middle empty (--points area does not)",
-                  leaves.mean_radius_major, report.radius_max_model);
+    std::snprintf(
+        text, sizeof text,
+        "the leaves' mean radius, %.3g model units, is above R_max, %.3g: kernels at their "
+        "vertices leave their middle empty (--points area does not)",
+        leaves.mean_radius_major, report.radius_max_model);
     report.warnings.emplace_back(text);
   }
   if (!options.coverage) return;
@@ -90,10 +91,11 @@ void warn_of_points(const LeafSet& leaves, const Options& options, std::span<con
   if (std::max(report.covered - *options.coverage, *options.coverage - low) <= kCoverageMissed) {
     return;
   }
-  std::snprintf(text, sizeof text,
-                "a coverage of %.3g cannot be had: many leaf vertices have the same density %.4g, and "
-                "between %.0f%% and %.0f%% of them lie inside (change --radius-max)",
-                *options.coverage, report.threshold, 100 * low, 100 * report.covered);
+  std::snprintf(
+      text, sizeof text,
+      "a coverage of %.3g cannot be had: many leaf vertices have the same density %.4g, and "
+      "between %.0f%% and %.0f%% of them lie inside (change --radius-max)",
+      *options.coverage, report.threshold, 100 * low, 100 * report.covered);
   report.warnings.emplace_back(text);
 }
 
@@ -223,9 +225,9 @@ void Stages::measure(const Field& field, Report& report) const {
   const Lattice lattice = lattice_of(leaves_, report);
   const std::uint64_t off_site = report.metrics.off_site_exact;
   const bool area = report.options.points == PointSource::area;
-  report.metrics =
-      leafhull::measure(field, local(points_.value.samples, lattice),
-                        area ? local(positions_of(leaves_.vertices), lattice) : std::vector<Vec3d>());
+  report.metrics = leafhull::measure(
+      field, local(points_.value.samples, lattice),
+      area ? local(positions_of(leaves_.vertices), lattice) : std::vector<Vec3d>());
   report.metrics.off_site_exact = off_site;
   report.counts.evaluated_voxels = field.sample_count();
   report.counts.evaluated_pairs = sampled_.value.pairs;

@@ -14,7 +14,7 @@ namespace leafhull {
 namespace {
 
 /// Rounds of Lloyd's method; more even out little.
-constexpr int kRounds = 8;
+constexpr int kRounds = 6;
 /// Cells along the longer side of a chart's grid: where it begins and where it ends.
 constexpr int kCoarsestGrid = 16;
 constexpr int kFinestGrid = 4096;
@@ -67,10 +67,15 @@ class NearestSeed {
     double nearest = std::numeric_limits<double>::infinity();
     const int x = std::clamp(cell(p[0], 0), 0, size_[0] - 1);
     const int y = std::clamp(cell(p[1], 1), 0, size_[1] - 1);
+    // How far it is, in cells, to the side of its own cell; less than 0 where it lies beyond all.
+    const auto to_side = [&](int axis, int at) {
+      const double into = (p[axis] - low_[axis]) / edge_ - at;
+      return std::min(into, 1 - into);
+    };
+    const double to_sides = std::min(to_side(0, x), to_side(1, y));
     for (int ring = 0; ring < std::max(size_[0], size_[1]); ++ring) {
-      // What lies in this ring is no nearer than the rings within it are wide.
-      const double least = (ring - 1) * edge_;
-      if (ring > 0 && least > 0 && nearest <= least * least) break;
+      const double least = std::max(ring - 1 + to_sides, 0.0) * edge_;  // to what is in this ring
+      if (ring > 0 && nearest <= least * least) break;
       for (int i = std::max(x - ring, 0); i <= std::min(x + ring, size_[0] - 1); ++i) {
         const bool side = i == x - ring || i == x + ring;
         const int step = side || ring == 0 ? 1 : 2 * ring;
@@ -189,10 +194,8 @@ void mark(const std::array<Vec2d, 3>& triangle, Vec2d low, Vec2d size, int edge,
     return std::pair(std::max(0, static_cast<int>(std::ceil(at(least)))),
                      std::min(edge - 1, static_cast<int>(std::floor(at(most)))));
   };
-  const auto [x0, x1] =
-      cells(std::min({a.x, b.x, c.x}), std::max({a.x, b.x, c.x}), low.x, size.x);
-  const auto [y0, y1] =
-      cells(std::min({a.y, b.y, c.y}), std::max({a.y, b.y, c.y}), low.y, size.y);
+  const auto [x0, x1] = cells(std::min({a.x, b.x, c.x}), std::max({a.x, b.x, c.x}), low.x, size.x);
+  const auto [y0, y1] = cells(std::min({a.y, b.y, c.y}), std::max({a.y, b.y, c.y}), low.y, size.y);
   for (int y = y0; y <= y1; ++y) {
     for (int x = x0; x <= x1; ++x) {
       const Vec2d p{low.x + (x + 0.5) / edge * size.x, low.y + (y + 0.5) / edge * size.y};
@@ -230,8 +233,12 @@ std::vector<Vec2d> even_samples(const Chart& chart, std::size_t least) {
   const Vec2d size{high.x - low.x, high.y - low.y};
   std::vector<Vec2d> samples;
   if (size.x > 0 && size.y > 0) {
-    for (int edge = kCoarsestGrid; edge <= kFinestGrid && samples.size() < least; edge *= 2) {
+    for (int edge = kCoarsestGrid; edge <= kFinestGrid;) {
       samples = grid_samples(chart, low, size, edge);
+      if (samples.size() >= least) break;
+      const double finer = std::sqrt(static_cast<double>(least) /
+                                     static_cast<double>(std::max<std::size_t>(samples.size(), 1)));
+      edge = static_cast<int>(std::ceil(edge * std::clamp(1.05 * finer, 1.1, 4.0)));
     }
   }
   if (samples.empty()) samples.push_back(chart.centre);

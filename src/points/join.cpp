@@ -75,7 +75,8 @@ std::vector<LeafPoint> join_in_cells(std::vector<LeafPoint> parts, double spacin
   const auto cell = [spacing](double v) { return std::llround(std::floor(v / spacing)); };
   for (const LeafPoint& part : parts) {
     const Vec3d p = part.position;
-    entries.push_back({{cell(p.x), cell(p.y), cell(p.z)}, static_cast<std::uint32_t>(entries.size())});
+    entries.push_back(
+        {{cell(p.x), cell(p.y), cell(p.z)}, static_cast<std::uint32_t>(entries.size())});
   }
   tbb::parallel_sort(entries);
 

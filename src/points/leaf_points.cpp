@@ -59,7 +59,8 @@ LeafPoints area_points(const LeafSet& leaves, double spacing) {
   }
   const LeafSheets& sheets = *leaves.sheets;
   if (sheets.sheets.empty()) {
-    throw Error(ErrorCode::input, "no leaf has a visible area: their textures are transparent there",
+    throw Error(ErrorCode::input,
+                "no leaf has a visible area: their textures are transparent there",
                 "Look at the model's textures and alpha modes, or give --points vertices.");
   }
   LeafPoints result;

@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::size_t kMostParts = 10'000'000;
 /// Of a chart, for each part that is cut from it.
-constexpr std::size_t kSamplesPerPart = 64;
+constexpr std::size_t kSamplesPerPart = 40;
 /// Steps, to a doubling, in which leaves' proportions are told apart.
 constexpr double kProportionSteps = 16;
 /// A strip of length L has R_u = L / sqrt 3; no part is longer than twice the spacing.
@@ -107,9 +107,10 @@ std::vector<LeafPoint> place_parts(const LeafSheets& sheets, double spacing) {
   }
   if (!(all <= kMostParts)) {
     char text[160];
-    std::snprintf(text, sizeof text,
-                  "the leaves would be cut into %.3g parts of %.3g model units, more than ten million",
-                  all, spacing);
+    std::snprintf(
+        text, sizeof text,
+        "the leaves would be cut into %.3g parts of %.3g model units, more than ten million", all,
+        spacing);
     throw Error(ErrorCode::usage, text, "Raise --radius-max or --point-spacing.");
   }
   std::vector<std::pair<const Cut, std::vector<FlatPart>>*> jobs;

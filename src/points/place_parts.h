@@ -8,8 +8,8 @@
 
 namespace leafhull {
 
-/// The parts of every leaf, leaf by leaf: one that is small is one part with its own ellipse, others
-/// are cut, once for all leaves that show the same chart in the same proportions.
+/// The parts of every leaf, leaf by leaf: one that is small is one part with its own ellipse,
+/// others are cut, once for all leaves that show the same chart in the same proportions.
 /// @throws Error usage: more than ten million parts.
 std::vector<LeafPoint> place_parts(const LeafSheets& sheets, double spacing);
 

@@ -32,7 +32,8 @@ std::vector<Taken> leaves_with_samples(const LeafSheets& sheets, double step) {
     const bool last = i + 1 == sheets.sheets.size();
     const std::size_t end =
         last ? kSamples
-             : std::min(kSamples, static_cast<std::size_t>(std::llround(std::floor(after / step + 0.5))));
+             : std::min(kSamples,
+                        static_cast<std::size_t>(std::llround(std::floor(after / step + 0.5))));
     if (end > first) taken.push_back({i, first, end, before});
     first = std::max(first, end);
     before = after;
@@ -62,8 +63,8 @@ std::vector<Vec3d> samples_of(const LeafSheets& sheets) {
     for (std::size_t i = t.first; i < t.end; ++i) {
       // How far into the leaf's own area the sample lies.
       const double into = ((static_cast<double>(i) + 0.5) * step - t.before) / sheet.area;
-      const auto place = static_cast<std::size_t>(
-          std::clamp(into, 0.0, 1.0) * static_cast<double>(on_chart.size()));
+      const auto place = static_cast<std::size_t>(std::clamp(into, 0.0, 1.0) *
+                                                  static_cast<double>(on_chart.size()));
       samples.push_back(sheet.at(on_chart[std::min(place, on_chart.size() - 1)]));
     }
   }

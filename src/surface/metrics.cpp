@@ -176,8 +176,7 @@ Placed place(std::span<const Vec3d> leaf_vertices, const Field& field) {
 
 }  // namespace
 
-Metrics measure(const Field& field, std::span<const Vec3d> places,
-                std::span<const Vec3d> others) {
+Metrics measure(const Field& field, std::span<const Vec3d> places, std::span<const Vec3d> others) {
   const VoxelCount voxels = count_voxels(field);
   const Placed placed = place(places, field);
   placed.cells->topologyUnion(*place(others, field).cells);

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "points/leaf_points.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,6 +10,7 @@
 #include "leaves/sheets.h"
 #include "leaves_models.h"
 #include "points/cut.h"
+#include "points/leaf_points.h"
 
 namespace leafhull {
 namespace {
@@ -153,7 +152,8 @@ TEST(LeafPoints, DoNotDependOnHowALeafIsTessellated) {
   ASSERT_EQ(a.points.size(), b.points.size());
   for (const LeafPoint& p : a.points) {
     double nearest = HUGE_VAL;
-    for (const LeafPoint& q : b.points) nearest = std::min(nearest, length(p.position - q.position));
+    for (const LeafPoint& q : b.points)
+      nearest = std::min(nearest, length(p.position - q.position));
     EXPECT_LT(nearest, 0.05);
   }
 }
@@ -203,8 +203,8 @@ TEST(LeafPoints, SamplesStandForEqualShares) {
   const Image image = test::alpha_image(64, test::opaque_inside(0.5, 0.5, 0.25, 0.25));
   Primitive far = card(2, 2);  // a third of what is visible, the mask being on both
   for (Vec3f& p : far.positions) p = p + Vec3f(10, 0, 0);
-  const LeafSet leaves = leaves_of(
-      masked(tree_of({card(2 * std::numbers::sqrt2_v<float>, 2), far}), image));
+  const LeafSet leaves =
+      leaves_of(masked(tree_of({card(2 * std::numbers::sqrt2_v<float>, 2), far}), image));
   const LeafPoints points = area_points(leaves, 0.5);
   const auto beyond = std::ranges::count_if(points.samples, [](Vec3d p) { return p.x > 5; });
   EXPECT_NEAR(static_cast<double>(beyond) / static_cast<double>(points.samples.size()),
