@@ -48,6 +48,7 @@ void check_lengths(const Extraction& extraction, Table& table) {
   table.compare_near("resolution", extraction.number("resolution"), cells, 0.5);
 }
 
+/// N_iso counts leaf vertices: its kernels have a weight of 1.
 std::vector<double> isotropic_density(const Extraction& extraction) {
   const auto centres = extraction.kernels.points("x", "y", "z");
   const double radius = extraction.number("radius_max_model");
@@ -55,7 +56,7 @@ std::vector<double> isotropic_density(const Extraction& extraction) {
   std::vector<Kernel> kernels;
   for (const Point& c : centres) {
     kernels.push_back(
-        make_kernel(c, {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, {radius, radius, radius}));
+        make_kernel(c, {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, {radius, radius, radius}, 1));
   }
   std::vector<double> densities;
   if (extraction.word("density") == "grid") {

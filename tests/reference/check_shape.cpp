@@ -15,9 +15,10 @@ std::vector<Kernel> used_kernels(const Ply& ply) {
   const auto centres = ply.points("x", "y", "z"), radii = ply.points("ru", "rv", "rn");
   const auto u = ply.points("ux", "uy", "uz"), v = ply.points("vx", "vy", "vz"),
              n = ply.points("nx", "ny", "nz");
+  const auto& weights = ply.property("weight");
   std::vector<Kernel> kernels;
   for (std::size_t i = 0; i < centres.size(); ++i) {
-    kernels.push_back(make_kernel(centres[i], {u[i], v[i], n[i]}, radii[i]));
+    kernels.push_back(make_kernel(centres[i], {u[i], v[i], n[i]}, radii[i], weights[i]));
   }
   return kernels;
 }

@@ -42,7 +42,7 @@ void add(const Kernel& kernel, int falloff, Lattice& lattice) {
       for (long k = first[2]; k <= last[2]; ++k, ++row) {
         offset[2] = double(k) * h - kernel.centre[2];
         const double xi = squared_length(local(kernel, offset));
-        if (xi < 1) *row += power(1 - xi, falloff);
+        if (xi < 1) *row += kernel.weight * power(1 - xi, falloff);
       }
     }
   }
@@ -57,8 +57,8 @@ void add(const Kernel& kernel, int falloff, const Point& point, Density& density
   const Point q = local(kernel, offset);
   const double xi = squared_length(q);
   if (xi >= 1) return;
-  const double slope = -falloff * power(1 - xi, falloff - 1);
-  density.value += power(1 - xi, falloff);
+  const double slope = -falloff * kernel.weight * power(1 - xi, falloff - 1);
+  density.value += kernel.weight * power(1 - xi, falloff);
   for (int i = 0; i < 3; ++i) {
     for (int a = 0; a < 3; ++a) density.gradient[i] += slope * 2 * q[a] * kernel.scaled_axes[a][i];
   }
@@ -98,8 +98,9 @@ class SortedPoints {
 
 }  // namespace
 
-Kernel make_kernel(const Point& centre, const std::array<Point, 3>& axes, const Point& radii) {
-  Kernel kernel{centre, axes, {}};
+Kernel make_kernel(const Point& centre, const std::array<Point, 3>& axes, const Point& radii,
+                   double weight) {
+  Kernel kernel{centre, axes, {}, weight};
   for (int i = 0; i < 3; ++i) {
     double sum = 0;
     for (int a = 0; a < 3; ++a) {

@@ -10,14 +10,16 @@ using Point = std::array<double, 3>;
 
 /// A density function. `scaled_axes` are the unit axes u, v, n, each divided by its radius, so that
 /// xi is the squared length of the offset in them; `extents` is the half size of the tight
-/// axis-aligned box of its support. Source: Eqs. (1), (3), (4).
+/// axis-aligned box of its support. D = weight (1 - xi)^k. SPEC: 2; Source: Eqs. (1), (3), (4).
 struct Kernel {
   Point centre;
   std::array<Point, 3> scaled_axes;
   Point extents;
+  double weight;
 };
 
-Kernel make_kernel(const Point& centre, const std::array<Point, 3>& axes, const Point& radii);
+Kernel make_kernel(const Point& centre, const std::array<Point, 3>& axes, const Point& radii,
+                   double weight);
 
 struct Density {
   double value = 0;

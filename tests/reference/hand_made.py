@@ -5,7 +5,7 @@ import itertools
 import math
 import struct
 
-KERNEL_PROPERTIES = "x y z nx ny nz ux uy uz vx vy vz ru rv rn density".split()
+KERNEL_PROPERTIES = "x y z nx ny nz ux uy uz vx vy vz ru rv rn density weight".split()
 H = 0.25
 IDENTITY = ((0, 0, 1), (1, 0, 0), (0, 1, 0))  # n, u, v
 
@@ -29,9 +29,10 @@ def tilted_frame():
 
 
 class Kernel:
-    def __init__(self, centre, radii, frame=IDENTITY, density=1.0):
+    def __init__(self, centre, radii, frame=IDENTITY, density=1.0, weight=1.0):
         self.centre = tuple(map(as_float, centre))
         self.frame, self.radii, self.density = frame, tuple(map(as_float, radii)), density
+        self.weight = as_float(weight)
 
     def xi(self, p):
         n, u, v = self.frame
@@ -41,7 +42,7 @@ class Kernel:
 
     def row(self):
         n, u, v = self.frame
-        return (*self.centre, *n, *u, *v, *self.radii, self.density)
+        return (*self.centre, *n, *u, *v, *self.radii, self.density, self.weight)
 
 
 def header(properties, vertex_count, triangle_count=None):
@@ -53,7 +54,7 @@ def header(properties, vertex_count, triangle_count=None):
 
 
 def write_kernels(path, kernels):
-    rows = b"".join(struct.pack("<16f", *kernel.row()) for kernel in kernels)
+    rows = b"".join(struct.pack("<17f", *kernel.row()) for kernel in kernels)
     path.write_bytes(header(KERNEL_PROPERTIES, len(kernels)) + rows)
 
 
@@ -78,7 +79,7 @@ def count_cells(is_inside, reach):
 
 
 def density(kernels, p):
-    return sum((1 - kernel.xi(p)) ** 2 for kernel in kernels if kernel.xi(p) < 1)
+    return sum(kernel.weight * (1 - kernel.xi(p)) ** 2 for kernel in kernels if kernel.xi(p) < 1)
 
 
 def corners(p):

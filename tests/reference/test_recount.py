@@ -106,6 +106,33 @@ class OneSphere(RecountTest):
         self.assertEqual(self.run_recount(self.kernels, self.report).returncode, 2)
 
 
+class WeightedKernels(RecountTest):
+    def test_sphere(self):
+        """N = w (1 - r^2/R^2)^2 = T is the sphere of radius R sqrt(1 - sqrt(T / w))."""
+        for weight in (1e-3, 0.4, 1, 30):
+            kernels = [Kernel((0.3, 0.2, 0.1), (1.5, 1.5, 1.5), weight=weight)]
+            threshold = 0.3 * weight if weight < 0.3 else 0.3
+            radius = 1.5 * math.sqrt(1 - math.sqrt(threshold / weight))
+            inside, on = count_cells(
+                lambda p: math.dist([H * i for i in p], kernels[0].centre) <= radius, 8)
+            report = make_report("isotropic", kernels, 1.5, threshold, inside, on, inside + on - 1)
+            self.assert_agrees_exactly(kernels, report)
+            kernels[0].weight *= 2
+            self.assert_differs("inside voxels", kernels, report)
+
+    def test_vertices_and_normals_of_two(self):
+        """Of two kernels the surface between them moves with their weights."""
+        kernels = [Kernel((x, 0.1, 0.2), (1.5, 1.5, 1.5), density=1.4096, weight=weight)
+                   for x, weight in ((0, 1), (0.9, 4))]
+        threshold = 0.6
+        inside, on = count_cells(
+            lambda p: density(kernels, [H * i for i in p]) >= threshold, 12)
+        report = make_report("isotropic", kernels, 1.5, threshold, inside, on, inside + on - 2)
+        self.assert_agrees_exactly(kernels, report)
+        kernels[0].weight, kernels[1].weight = 1, 1
+        self.assert_differs("inside voxels", kernels, report)
+
+
 class SamplesOnTheSurface(RecountTest):
     """30 samples at distance 3h exactly on N = T may count as inside or not, and nothing else may."""
 

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstring>
 #include <map>
 #include <random>
 #include <set>
@@ -14,15 +15,16 @@ namespace {
 
 using reference::random_kernels;
 using reference::sphere;
+using reference::weighted;
 
 constexpr Vec3d kFar{1e4, -2e4, 3e3};
 
 KernelSet on_lattice(std::span<const Kernel> kernels, const Lattice& lattice) {
-  return {kernels, reference::hash_of(kernels), lattice};
+  return {kernels, reference::hash_of(kernels), lattice, 2};
 }
 
-/// xi from the triangular factor.
-double xi_of(const LatticeKernel& k, Vec3d local) {
+/// |U d|^2 from the triangular factor.
+double square_of(const LatticeKernel& k, Vec3d local) {
   const Vec3d d = local - to_vec3d(k.cell) - Vec3d(k.offset);
   const double x = k.xx * d.x + k.xy * d.y + k.xz * d.z;
   const double y = k.yy * d.y + k.yz * d.z;
@@ -36,46 +38,97 @@ TEST(LatticeKernel, HasTheXiOfItsAxes) {
   for (const float thinnest : {0.2f, 0.002f}) {
     const Lattice lattice = Lattice::near(kFar, 0.25);
     for (const Kernel& kernel : random_kernels(200, 4, thinnest, kFar)) {
-      const LatticeKernel local = to_lattice(kernel, lattice);
+      const LatticeKernel local = to_lattice(kernel, lattice, 2);
       for (int i = 0; i < 20; ++i) {
         const Vec3d d = Vec3d(unit(random), unit(random), unit(random)) * 1.5;
         const double xi = reference::xi(kernel, kernel.centre + d);
         // Lengths in units of the smallest radius carry the float's rounding.
-        EXPECT_NEAR(std::sqrt(xi_of(local, lattice.local(kernel.centre + d))), std::sqrt(xi),
+        EXPECT_NEAR(std::sqrt(square_of(local, lattice.local(kernel.centre + d))), std::sqrt(xi),
                     1e-6 * 1.5 / static_cast<double>(thinnest) + 1e-6);
       }
     }
   }
 }
 
-TEST(OctantLists, OfASphereAndEightCubes) {
-  // Octants of edge 2 around (6, 1, 1), a sphere of radius 3 at the origin.
-  const std::vector<Kernel> kernels{sphere({0, 0, 0}, 3)};
-  const std::vector<LatticeKernel> local{to_lattice(kernels[0], {1, {}})};
-  const std::vector<std::uint32_t> ranks{0};
-  OctantLists octants;
-  octants.narrow(local, ranks, {{}, {3, 1, 1}, 1, 1}, 3, 1);
-  // Octant 0 is the cube from (1, -1, -1) to (3, 1, 1): 1 / 9 <= xi <= 11 / 9.
-  EXPECT_EQ(octants.list(0).size(), 1u);
-  EXPECT_NEAR(octants.high(0), 1 - 1.0 / 9, 1e-3);
-  EXPECT_GE(octants.high(0), 1 - 1.0 / 9);
-  EXPECT_EQ(octants.low(0), 0);
-  // Octant 7 is the cube from (3, 1, 1) to (5, 3, 3): beyond the sphere.
-  EXPECT_TRUE(octants.list(7).empty());
-}
-
-TEST(OctantLists, BoundEverySampleOfEveryOctant) {
+TEST(LatticeKernel, CarriesItsWeight) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> unit(-1, 1);
-  const auto kernels = random_kernels(400, 3);
-  const Lattice lattice = Lattice::near({0, 0, 0}, 0.25);
-  std::vector<LatticeKernel> local;
-  std::vector<std::uint32_t> ranks;
-  for (const Kernel& kernel : kernels) {
-    ranks.push_back(static_cast<std::uint32_t>(local.size()));
-    local.push_back(to_lattice(kernel, lattice));
+  const Lattice lattice = Lattice::near(kFar, 0.25);
+  auto kernels = random_kernels(50, 4, 0.2f, kFar);
+  kernels.push_back(sphere(kFar, 0.7f));
+  for (const int k : {1, 2, 3}) {
+    for (const float weight : {1e-6f, 0.03f, 1.0f, 50.0f, 1e6f}) {
+      for (Kernel kernel : kernels) {
+        kernel.weight = weight;
+        const LatticeKernel local = to_lattice(kernel, lattice, k);
+        for (int i = 0; i < 20; ++i) {
+          const Vec3d d = Vec3d(unit(random), unit(random), unit(random)) * 0.7;
+          const double xi = reference::xi(kernel, kernel.centre + d);
+          const double w =
+              static_cast<double>(local.top) - square_of(local, lattice.local(kernel.centre + d));
+          EXPECT_NEAR(std::pow(std::max(w, 0.0), k) / static_cast<double>(weight),
+                      xi < 1 ? std::pow(1 - xi, k) : 0, 3e-5);
+        }
+      }
+    }
   }
+}
+
+TEST(LatticeKernel, IsTheSameBitsForAnyFalloffWhereItsWeightIs1) {
+  const Lattice lattice = Lattice::near(kFar, 0.25);
+  auto kernels = random_kernels(50, 4, 0.002f, kFar);
+  kernels.push_back(sphere(kFar, 0.7f));
+  for (const Kernel& kernel : kernels) {
+    const LatticeKernel one = to_lattice(kernel, lattice, 1);
+    EXPECT_EQ(one.top, 1);
+    for (const int k : {2, 3}) {
+      const LatticeKernel other = to_lattice(kernel, lattice, k);
+      EXPECT_EQ(std::memcmp(&one, &other, sizeof one), 0);
+    }
+  }
+}
+
+TEST(OctantLists, OfASphereAndEightCubes) {
+  // Octants of edge 2 around (6, 1, 1), a sphere of radius 3 at the origin.
+  for (const float weight : {1.0f, 1e-6f, 7.0f, 1e6f}) {
+    const std::vector<LatticeKernel> local{to_lattice(sphere({0, 0, 0}, 3, weight), {1, {}}, 1)};
+    const std::vector<std::uint32_t> ranks{0};
+    OctantLists octants;
+    octants.narrow(local, ranks, {{}, {3, 1, 1}, 1, 1}, 3, 1);
+    // Octant 0 is the cube from (1, -1, -1) to (3, 1, 1): 1 / 9 <= xi <= 11 / 9.
+    EXPECT_EQ(octants.list(0).size(), 1u);
+    const double share = octants.high(0) / static_cast<double>(weight);
+    EXPECT_NEAR(share, 1 - 1.0 / 9, 1e-3);
+    EXPECT_GE(share, 1 - 1.0 / 9);
+    EXPECT_EQ(octants.low(0), 0);
+    // Octant 7 is the cube from (3, 1, 1) to (5, 3, 3): beyond the sphere.
+    EXPECT_TRUE(octants.list(7).empty());
+  }
+}
+
+class Weights : public testing::TestWithParam<int> {
+ protected:
+  /// Of random kernels: from 10^-decades to 10^decades.
+  int decades() const { return GetParam(); }
+  std::vector<Kernel> kernels(std::size_t count, double extent, float smallest = 0.2f,
+                              Vec3d corner = {}) const {
+    return weighted(random_kernels(count, extent, smallest, corner), decades());
+  }
+};
+INSTANTIATE_TEST_SUITE_P(Decades, Weights, testing::Values(0, 1, 6));
+
+TEST_P(Weights, OctantsBoundEverySample) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  const auto kernels = this->kernels(400, 3);
+  const Lattice lattice = Lattice::near({0, 0, 0}, 0.25);
   for (const int falloff : {1, 2, 3}) {
+    std::vector<LatticeKernel> local;
+    std::vector<std::uint32_t> ranks;
+    for (const Kernel& kernel : kernels) {
+      ranks.push_back(static_cast<std::uint32_t>(local.size()));
+      local.push_back(to_lattice(kernel, lattice, falloff));
+    }
     int undecided = 0;
     for (int trial = 0; trial < 30; ++trial) {
       const Vec3f centre(Vec3d(unit(random), unit(random), unit(random)) * 6 + Vec3d(6, 6, 6));
@@ -94,7 +147,8 @@ TEST(OctantLists, BoundEverySampleOfEveryOctant) {
           const double n = reference::density(kernels, p, falloff);
           EXPECT_LE(octants.low(o), n);
           EXPECT_GE(octants.high(o), n);
-          EXPECT_NEAR(reference::density(near, p, falloff), n, 1e-12) << "a kernel is not listed";
+          EXPECT_NEAR(reference::density(near, p, falloff), n, 1e-12 * (1 + n))
+              << "a kernel is not listed";
           undecided += octants.low(o) > 0 && octants.high(o) < 3 * n;
         }
       }
@@ -175,8 +229,8 @@ Verdict verdict(const Band& band, Coord s) {
   return Verdict::outside;
 }
 
-TEST(Band, DecidesOnlyWhatTheDensityBearsOut) {
-  const auto kernels = random_kernels(3000, 6, 0.3f);
+TEST_P(Weights, LetTheBandDecideOnlyWhatTheDensityBearsOut) {
+  const auto kernels = this->kernels(3000, 6, 0.3f);
   const Lattice lattice = Lattice::near({0, 0, 0}, 0.03);
   const KernelSet set = on_lattice(kernels, lattice);
   const double t = 1;
@@ -201,8 +255,8 @@ TEST(Band, DecidesOnlyWhatTheDensityBearsOut) {
   for (const int count : seen) EXPECT_GT(count, 0);
 }
 
-TEST(Band, EvaluatesBothSidesOfEveryCrossing) {
-  const auto kernels = random_kernels(400, 4, 0.3f);
+TEST_P(Weights, LetTheBandEvaluateBothSidesOfEveryCrossing) {
+  const auto kernels = this->kernels(400, 4, 0.3f);
   const Lattice lattice = Lattice::near({0, 0, 0}, 0.1);
   const KernelSet set = on_lattice(kernels, lattice);
   const double t = 1.5;
@@ -258,8 +312,8 @@ TEST(Band, SeveralThresholdsAreDecidedEachAsAlone) {
   EXPECT_LT(band.bricks.size(), evaluated);
 }
 
-TEST(Band, BrickListsAreThoseOfTheDenseSearch) {
-  const auto kernels = random_kernels(800, 6, 0.3f, kFar);
+TEST_P(Weights, LeaveBrickListsThoseOfTheDenseSearch) {
+  const auto kernels = this->kernels(800, 6, 0.3f, kFar);
   const KernelSet set = on_lattice(kernels, Lattice::near(kFar, 0.1));
   const Band band = band_of(set, {{1.5}});
   const Band dense = band_of(set, {});

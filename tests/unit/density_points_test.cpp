@@ -16,8 +16,9 @@ using reference::random_kernels;
 
 struct Near {
   Lattice lattice = Lattice::near({1e4, -2e4, 3e3}, 0.1);
-  std::vector<Kernel> kernels = random_kernels(3001, 5, 0.05f, {1e4, -2e4, 3e3});
-  KernelSet set{kernels, reference::hash_of(kernels), lattice};
+  std::vector<Kernel> kernels =
+      reference::weighted(random_kernels(3001, 5, 0.05f, {1e4, -2e4, 3e3}), 6);
+  KernelSet set{kernels, reference::hash_of(kernels), lattice, 2};
 
   Vec3d somewhere(std::mt19937& random) const {
     std::normal_distribution<double> gauss(0.5, 0.2);

@@ -23,18 +23,27 @@ inline double xi(const Kernel& kernel, Vec3d p) {
   return pu * pu + pv * pv + pn * pn;
 }
 
-/// N(p). Source: Eqs. (1), (2), (4).
+/// N(p). SPEC: 2; Source: Eqs. (1), (2), (4).
 inline double density(std::span<const Kernel> kernels, Vec3d p, int k) {
   double sum = 0;
   for (const Kernel& kernel : kernels) {
     const double x = xi(kernel, p);
-    if (x < 1) sum += std::pow(1 - x, k);
+    if (x < 1) sum += static_cast<double>(kernel.weight) * std::pow(1 - x, k);
   }
   return sum;
 }
 
-inline Kernel sphere(Vec3d centre, float radius) {
-  return {centre, {0, 0, 1}, {1, 0, 0}, radius, radius, radius};
+/// What rounding is a share of at p: the weights of the kernels that reach it, or nearly.
+inline double weight_near(std::span<const Kernel> kernels, Vec3d p) {
+  double sum = 0;
+  for (const Kernel& kernel : kernels) {
+    if (xi(kernel, p) < 1.001) sum += static_cast<double>(kernel.weight);
+  }
+  return sum;
+}
+
+inline Kernel sphere(Vec3d centre, float radius, float weight = 1) {
+  return {centre, {0, 0, 1}, {1, 0, 0}, radius, radius, radius, weight};
 }
 
 /// `count` kernels of random frames in a cube of edge `extent` at `corner`, radii from `smallest`
@@ -55,6 +64,14 @@ inline std::vector<Kernel> random_kernels(std::size_t count, double extent, floa
     kernels.push_back({corner + Vec3d(unit(random), unit(random), unit(random)) * extent, n, u,
                        radius(), radius(), radius()});
   }
+  return kernels;
+}
+
+/// The kernels with weights from 10^-decades to 10^decades.
+inline std::vector<Kernel> weighted(std::vector<Kernel> kernels, double decades) {
+  std::mt19937 random(8);
+  std::uniform_real_distribution<double> power(-decades, decades);
+  for (Kernel& kernel : kernels) kernel.weight = static_cast<float>(std::pow(10, power(random)));
   return kernels;
 }
 

@@ -45,7 +45,7 @@ TEST_P(EvaluatorTest, SamplesAgreeWithFloat64) {
   for (const Vec3d corner : {Vec3d{}, Vec3d{1e4, -2e4, 3e3}}) {
     const auto kernels = random_kernels(600, 3, 0.15f, corner);
     const Lattice lattice = Lattice::near(corner, 0.1);
-    const KernelSet set(kernels, reference::hash_of(kernels), lattice);
+    const KernelSet set(kernels, reference::hash_of(kernels), lattice, falloff());
     Evaluator evaluator(chosen(), set, falloff());
     double worst = 0;
     std::uint64_t pairs = 0, compared = 0;
@@ -64,6 +64,30 @@ TEST_P(EvaluatorTest, SamplesAgreeWithFloat64) {
     EXPECT_LT(worst, 1e-5);
     EXPECT_GT(compared, 1000u);
     EXPECT_GT(pairs, 0u);
+  }
+}
+
+TEST_P(EvaluatorTest, WeightedSamplesAgreeWithFloat64) {
+  for (const double decades : {1.0, 6.0}) {
+    const auto kernels = reference::weighted(random_kernels(600, 3, 0.15f), decades);
+    const Lattice lattice = Lattice::near({0, 0, 0}, 0.1);
+    const KernelSet set(kernels, reference::hash_of(kernels), lattice, falloff());
+    Evaluator evaluator(chosen(), set, falloff());
+    std::uint64_t compared = 0;
+    find_band(set, {.falloff = falloff()}, [&](const BrickList& bricks, double) {
+      std::vector<float> samples(bricks.size() * kBrickSamples);
+      evaluator.sample(bricks, samples);
+      for (std::size_t b = 0; b < bricks.size(); b += 5) {
+        for (int s = 0; s < kBrickSamples; s += 7) {
+          const Coord at = bricks.origins[b] + Coord{s >> 6, s >> 3 & 7, s & 7};
+          const Vec3d p = lattice.world(to_vec3d(at));
+          const double n = reference::density(kernels, p, falloff());
+          EXPECT_NEAR(samples[b * kBrickSamples + s], n, 1e-5 * reference::weight_near(kernels, p));
+          compared += n > 0;
+        }
+      }
+    });
+    EXPECT_GT(compared, 1000u);
   }
 }
 
@@ -101,37 +125,41 @@ Snapped snap(Evaluator& evaluator, const KernelSet& set, std::span<const Vec3d> 
 }
 
 TEST_P(EvaluatorTest, PointsAgreeWithFloat64) {
-  const auto kernels = random_kernels(600, 3, 0.15f);
-  const Lattice lattice = Lattice::near({0, 0, 0}, 0.1);
-  const KernelSet set(kernels, reference::hash_of(kernels), lattice);
-  Evaluator evaluator(chosen(), set, falloff());
-  std::vector<Vec3d> points;
-  for (const Kernel& k : kernels) points.push_back(lattice.local(k.centre));
-  const std::vector<float> density = density_at(evaluator, set, points);
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const double n = reference::density(kernels, kernels[i].centre, falloff());
-    EXPECT_NEAR(density[i], n, 1e-5 * (1 + n));
+  for (const double decades : {0.0, 1.0, 6.0}) {
+    const auto kernels = reference::weighted(random_kernels(600, 3, 0.15f), decades);
+    const Lattice lattice = Lattice::near({0, 0, 0}, 0.1);
+    const KernelSet set(kernels, reference::hash_of(kernels), lattice, falloff());
+    Evaluator evaluator(chosen(), set, falloff());
+    std::vector<Vec3d> points;
+    for (const Kernel& k : kernels) points.push_back(lattice.local(k.centre));
+    const std::vector<float> density = density_at(evaluator, set, points);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const double n = reference::density(kernels, kernels[i].centre, falloff());
+      EXPECT_NEAR(density[i], n, 1e-5 * reference::weight_near(kernels, kernels[i].centre));
+    }
   }
 }
 
 TEST_P(EvaluatorTest, OnePointOfOneKernelByHand) {
-  // xi = (0.5 / 1)^2 = 0.25 at (0.5, 0, 0) of a unit sphere: D = 0.75^k.
-  const std::vector<Kernel> kernels{sphere({0, 0, 0}, 1)};
-  const Lattice lattice = Lattice::near({0, 0, 0}, 0.25);
-  const KernelSet set(kernels, reference::hash_of(kernels), lattice);
-  Evaluator evaluator(chosen(), set, falloff());
-  const std::vector<Vec3d> points{lattice.local({0.5, 0, 0}), lattice.local({0, 0, 1}),
-                                  lattice.local({50, 60, 70})};
-  const std::vector<float> density = density_at(evaluator, set, points);
-  EXPECT_NEAR(density[0], std::pow(0.75, falloff()), 1e-6);
-  EXPECT_NEAR(density[1], 0, 1e-6);
-  EXPECT_EQ(density[2], 0);
+  // xi = (0.5 / 1)^2 = 0.25 at (0.5, 0, 0) of a unit sphere: D = w 0.75^k.
+  for (const float weight : {1.0f, 1e-6f, 8.0f, 1e6f}) {
+    const std::vector<Kernel> kernels{sphere({0, 0, 0}, 1, weight)};
+    const Lattice lattice = Lattice::near({0, 0, 0}, 0.25);
+    const KernelSet set(kernels, reference::hash_of(kernels), lattice, falloff());
+    Evaluator evaluator(chosen(), set, falloff());
+    const std::vector<Vec3d> points{lattice.local({0.5, 0, 0}), lattice.local({0, 0, 1}),
+                                    lattice.local({50, 60, 70})};
+    const std::vector<float> density = density_at(evaluator, set, points);
+    EXPECT_NEAR(density[0] / weight, std::pow(0.75, falloff()), 1e-6);
+    EXPECT_NEAR(density[1] / weight, 0, 1e-6);
+    EXPECT_EQ(density[2], 0);
+  }
 }
 
 TEST_P(EvaluatorTest, APointDoesNotDependOnItsCompany) {
   const auto kernels = random_kernels(600, 3, 0.05f);
   const Lattice lattice = Lattice::near({0, 0, 0}, 0.1);
-  const KernelSet set(kernels, reference::hash_of(kernels), lattice);
+  const KernelSet set(kernels, reference::hash_of(kernels), lattice, falloff());
   Evaluator evaluator(chosen(), set, falloff());
   std::mt19937 random(4);
   std::uniform_real_distribution<double> unit(0, 30);
@@ -152,34 +180,35 @@ TEST_P(EvaluatorTest, APointDoesNotDependOnItsCompany) {
 }
 
 TEST_P(EvaluatorTest, SnapsOntoAnEllipsoid) {
-  // One kernel of radii 2, 1, 0.5: N = T where xi = 1 - T^(1/k).
-  const std::vector<Kernel> kernels{{{0.3, 0.2, 0.1}, {0, 0, 1}, {1, 0, 0}, 2, 1, 0.5f}};
-  const double t = 0.4;
-  const Lattice lattice = Lattice::near({0, 0, 0}, 0.1);
-  const KernelSet set(kernels, reference::hash_of(kernels), lattice);
-  Evaluator evaluator(chosen(), set, falloff());
-  const double shrink = std::sqrt(1 - std::pow(t, 1.0 / falloff()));
-  std::mt19937 random(2);
-  std::normal_distribution<double> gauss;
-  std::vector<Vec3d> points;
-  for (int i = 0; i < 200; ++i) {
-    const Vec3d d = normalized(Vec3d(gauss(random), gauss(random), gauss(random)));
-    const Vec3d on(2 * d.x, d.y, 0.5 * d.z);
-    const Vec3d p = lattice.local(kernels[0].centre + on * shrink);
-    // The centre of the cell that the surface crosses here.
-    points.push_back(to_vec3d(cell_of(p)) + Vec3d(0.5, 0.5, 0.5));
-  }
-  const Snapped snapped = snap(evaluator, set, points, t, 12);
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const Vec3d local = snapped.points[i];
-    const Vec3d from = points[i];
-    for (const double step : {local.x - from.x, local.y - from.y, local.z - from.z}) {
-      EXPECT_LE(std::fabs(step), 0.5 + 1e-5) << "left its cell";
+  // One kernel of radii 2, 1, 0.5: N = T where xi = 1 - (T / w)^(1/k).
+  for (const auto& [weight, t] : {std::pair(1.0f, 0.4), {2.0f, 0.4}, {1e-6f, 2e-7}, {1e6f, 5e5}}) {
+    const std::vector<Kernel> kernels{{{0.3, 0.2, 0.1}, {0, 0, 1}, {1, 0, 0}, 2, 1, 0.5f, weight}};
+    const Lattice lattice = Lattice::near({0, 0, 0}, 0.1);
+    const KernelSet set(kernels, reference::hash_of(kernels), lattice, falloff());
+    Evaluator evaluator(chosen(), set, falloff());
+    const double shrink = std::sqrt(1 - std::pow(t / static_cast<double>(weight), 1.0 / falloff()));
+    std::mt19937 random(2);
+    std::normal_distribution<double> gauss;
+    std::vector<Vec3d> points;
+    for (int i = 0; i < 200; ++i) {
+      const Vec3d d = normalized(Vec3d(gauss(random), gauss(random), gauss(random)));
+      const Vec3d on(2 * d.x, d.y, 0.5 * d.z);
+      const Vec3d p = lattice.local(kernels[0].centre + on * shrink);
+      // The centre of the cell that the surface crosses here.
+      points.push_back(to_vec3d(cell_of(p)) + Vec3d(0.5, 0.5, 0.5));
     }
-    const Vec3d p = lattice.world(local) - kernels[0].centre;
-    const Vec3d outward = normalized(Vec3d(p.x / 4, p.y, p.z * 4));
-    EXPECT_NEAR(length(Vec3d(p.x / 2, p.y, p.z * 2)) / shrink, 1, 2e-2);
-    EXPECT_GT(dot(outward, Vec3d(snapped.normals[i])), 0.999);
+    const Snapped snapped = snap(evaluator, set, points, t, 12);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const Vec3d local = snapped.points[i];
+      const Vec3d from = points[i];
+      for (const double step : {local.x - from.x, local.y - from.y, local.z - from.z}) {
+        EXPECT_LE(std::fabs(step), 0.5 + 1e-5) << "left its cell";
+      }
+      const Vec3d p = lattice.world(local) - kernels[0].centre;
+      const Vec3d outward = normalized(Vec3d(p.x / 4, p.y, p.z * 4));
+      EXPECT_NEAR(length(Vec3d(p.x / 2, p.y, p.z * 2)) / shrink, 1, 2e-2);
+      EXPECT_GT(dot(outward, Vec3d(snapped.normals[i])), 0.999);
+    }
   }
 }
 
@@ -188,7 +217,7 @@ TEST_P(EvaluatorTest, SnapsWhereNewtonHasNoWay) {
   const std::vector<Kernel> kernels{sphere({0, 0, 0}, 0.8f)};
   const double t = 0.3;
   const Lattice lattice = Lattice::near({0, 0, 0}, 1);
-  const KernelSet set(kernels, reference::hash_of(kernels), lattice);
+  const KernelSet set(kernels, reference::hash_of(kernels), lattice, falloff());
   Evaluator evaluator(chosen(), set, falloff());
   const std::vector<Vec3d> points{{0.9, 0.9, 0.9}, {-0.9, 0.8, -0.9}};
   const Snapped snapped = snap(evaluator, set, points, t, 12);
@@ -203,7 +232,7 @@ TEST_P(EvaluatorTest, SnapsWhereNewtonHasNoWay) {
 TEST(Device, VariantsAgreeToRounding) {
   const auto kernels = random_kernels(800, 3, 0.1f);
   const Lattice lattice = Lattice::near({0, 0, 0}, 0.1);
-  const KernelSet set(kernels, reference::hash_of(kernels), lattice);
+  const KernelSet set(kernels, reference::hash_of(kernels), lattice, 2);
   Evaluator vector(device("vector"), set, 2);
   Evaluator work_item(device("work-item"), set, 2);
   find_band(set, {}, [&](const BrickList& bricks, double) {
@@ -222,7 +251,7 @@ TEST(Device, ThinKernelsLoseNoSamples) {
   // Radii far below a voxel: the sample at the centre must see its kernel, its neighbours nothing.
   std::vector<Kernel> kernels{{{1.5, 2.5, 3.5}, {0, 0, 1}, {1, 0, 0}, 0.01f, 0.01f, 0.01f}};
   const Lattice lattice = Lattice::near({0, 0, 0}, 0.5);
-  const KernelSet set(kernels, reference::hash_of(kernels), lattice);
+  const KernelSet set(kernels, reference::hash_of(kernels), lattice, 2);
   Evaluator evaluator(device("vector"), set, 2);
   int ones = 0, others = 0;
   find_band(set, {}, [&](const BrickList& bricks, double) {
@@ -243,7 +272,7 @@ TEST_P(EvaluatorTest, PreparingBuildsWhatEvaluatingNeeds) {
 
   const std::vector<Kernel> kernels{sphere({0, 0, 0}, 1)};
   const Lattice lattice = Lattice::near({0, 0, 0}, 0.25);
-  const KernelSet set(kernels, reference::hash_of(kernels), lattice);
+  const KernelSet set(kernels, reference::hash_of(kernels), lattice, falloff());
   Evaluator evaluator(prepared, set, falloff());
   float highest = 0;
   find_band(set, {.falloff = falloff()}, [&](const BrickList& bricks, double) {

@@ -135,22 +135,23 @@ TEST(Stl, HoldsTheTrianglesInTheWorld) {
 }
 
 TEST(Kernels, StandInTheOrderOfTheSpecification) {
-  const Shape shape = sample_shape();
+  Shape shape = sample_shape();
+  shape.kernels[1].weight = 40;
   const auto [header, body] = read_ply(written([&](std::ostream& stream) {
     write_kernels(shape.kernels, shape.isotropic_density, stream);
   }));
   std::vector<std::string> expected{"ply", "format binary_little_endian 1.0", "element vertex 2"};
   for (const char* name : {"x", "y", "z", "nx", "ny", "nz", "ux", "uy", "uz", "vx", "vy", "vz",
-                           "ru", "rv", "rn", "density"}) {
+                           "ru", "rv", "rn", "density", "weight"}) {
     expected.push_back(std::string("property float ") + name);
   }
   EXPECT_EQ(header, expected);
   std::size_t offset = 0;
-  using Row = std::array<float, 16>;
+  using Row = std::array<float, 17>;
   EXPECT_EQ(take<Row>(body, offset),
-            (Row{1, 2, 3, 0, 0, 1, 1, 0, 0, 0, 1, 0, 0.75f, 0.5f, 0.25f, 2.5f}));
+            (Row{1, 2, 3, 0, 0, 1, 1, 0, 0, 0, 1, 0, 0.75f, 0.5f, 0.25f, 2.5f, 1}));
   EXPECT_EQ(take<Row>(body, offset),
-            (Row{-1, 0, 4, 0, 1, 0, 0, 0, 1, 1, 0, 0, 1.5f, 1.0f, 0.8f, 0.125f}));
+            (Row{-1, 0, 4, 0, 1, 0, 0, 0, 1, 1, 0, 0, 1.5f, 1.0f, 0.8f, 0.125f, 40}));
   EXPECT_EQ(offset, body.size());
 }
 
