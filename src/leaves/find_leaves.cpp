@@ -9,6 +9,7 @@
 #include "leafhull/leaves.h"
 #include "leaves/alpha_mask.h"
 #include "leaves/components.h"
+#include "leaves/crown.h"
 #include "leaves/ellipse.h"
 #include "leaves/frame.h"
 #include "leaves/leaf_mesh.h"
@@ -205,6 +206,10 @@ LeafSet find_leaves(const TreeModel& tree, std::span<const Instance> instances,
     leaves.warnings.push_back(untextured_warning(collector.untextured()));
   }
   for (const LeafVertex& vertex : leaves.vertices) leaves.bounds.include(vertex.position);
+  const Crown crown = find_crown(leaves);
+  leaves.crown = crown.box;
+  leaves.stray_leaves = crown.strays;
+  if (crown.strays > 0) leaves.warnings.push_back(stray_warning(crown));
   sort_vertices(leaves);
   leaves.mean_radius_major = mean_radius_major(leaves);
   return leaves;
