@@ -59,8 +59,12 @@ struct LeafSet {
   std::size_t split_components = 0;  ///< components that were not one flat leaf
   double mean_radius_major = 0;      ///< mean R_u over the leaves, model units
   double area = 0;                   ///< that is visible, one side of it, model units squared
-  Box bounds;                        ///< of the vertices
   std::shared_ptr<const LeafSheets> sheets;  ///< what `area` is of
+  Box bounds;                                ///< of the vertices
+  /// Of the vertices but for strays, the few leaves that lie far from the rest: what lengths in
+  /// crown units and resolutions count along. SPEC: 4.
+  Box crown;
+  std::size_t stray_leaves = 0;
   std::vector<std::string> warnings;
 };
 

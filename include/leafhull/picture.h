@@ -25,8 +25,8 @@ struct Frame {
   double reach = 0;
 };
 
-/// The leaf vertices and what kernels with radii up to `radius_max` (model units), or the leaves'
-/// own, fill around them.
+/// The crown's leaf vertices and what kernels with radii up to `radius_max` (model units), or the
+/// leaves' own, fill around them. Strays may lie outside.
 Frame frame_of(const LeafSet& leaves, double radius_max);
 
 /// A shaded picture of a closed mesh on white, seen from three quarters. Pictures of one `frame`

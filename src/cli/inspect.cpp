@@ -107,7 +107,7 @@ void print_fact(std::string label, const std::string& value) {
 }
 
 void print_leaves(const LeafSet& leaves) {
-  const double crown_unit = leaves.bounds.longest_side() / kCrownUnits;
+  const double crown_unit = leaves.crown.longest_side() / kCrownUnits;
   std::cout << '\n';
   print_fact("leaves", count(leaves.leaf_count));
   print_fact("leaf vertices", count(leaves.vertices.size()));
@@ -117,6 +117,10 @@ void print_leaves(const LeafSet& leaves) {
                              number(leaves.mean_radius_major / crown_unit, 3) + " crown units");
   print_fact("mean R_u / R_v", number(slenderness(leaves), 3));
   print_fact("bounding box", text(leaves.bounds.low) + "  to  " + text(leaves.bounds.high));
+  if (leaves.stray_leaves > 0) {
+    print_fact("crown", text(leaves.crown.low) + "  to  " + text(leaves.crown.high));
+    print_fact("stray leaves", count(leaves.stray_leaves));
+  }
   print_fact("crown unit", number(crown_unit, 4) + " model units");
 }
 
@@ -132,7 +136,9 @@ Json json(const LeafSet& leaves) {
           {"mean_radius_major", leaves.mean_radius_major},
           {"mean_radius_ratio", slenderness(leaves)},
           {"bounds", {{"low", json(leaves.bounds.low)}, {"high", json(leaves.bounds.high)}}},
-          {"crown_unit", leaves.bounds.longest_side() / kCrownUnits}};
+          {"crown", {{"low", json(leaves.crown.low)}, {"high", json(leaves.crown.high)}}},
+          {"stray_leaves", leaves.stray_leaves},
+          {"crown_unit", leaves.crown.longest_side() / kCrownUnits}};
 }
 
 void print_json(const Arguments& arguments, const std::vector<PrimitiveSummary>& rows,

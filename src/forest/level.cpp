@@ -91,6 +91,7 @@ ForestModel prepare_model(const LeafSet& all, int level, const Options& resolved
   model.radius_max = report.radius_max_model;
   model.groups = groups_of(model.kernels);
   for (const Kernel& k : model.kernels) model.bounds.include(k.centre);
+  model.crown = leaves.crown.longest_side();
   model.reach = report.radius_max_model;
   return model;
 }
@@ -143,7 +144,7 @@ double threshold_of(const ForestLevel& level, std::span<const ModelUse> uses,
 /// measured on voxels no smaller than a share of the tree, so that it takes no more memory than a
 /// tile.
 double largest_piece(const ForestModel& model, const ForestLevel& level, Device& device) {
-  const double side = model.bounds.longest_side() + 2 * model.reach;
+  const double side = model.crown + 2 * model.reach;
   const double voxel_size = std::max(level.voxel_size, side / kMostVoxels);
   const Lattice lattice = Lattice::near(model.bounds.low, voxel_size);
   const auto hash = std::make_shared<const SpatialHash>(
@@ -191,7 +192,7 @@ double voxel_size_of(std::span<const LeafSet> models, std::span<const ModelUse> 
   for (std::size_t m = 0; m < models.size(); ++m) {
     if (uses[m].trees == 0) continue;
     const double radius = radius_max_in_model_units(models[m], resolved);
-    side = std::max(side, uses[m].largest * (models[m].bounds.longest_side() + 2 * radius));
+    side = std::max(side, uses[m].largest * (models[m].crown.longest_side() + 2 * radius));
   }
   return side / *resolved.resolution;
 }

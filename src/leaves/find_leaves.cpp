@@ -10,6 +10,7 @@
 #include "leafhull/leaves.h"
 #include "leaves/alpha_mask.h"
 #include "leaves/components.h"
+#include "leaves/crown.h"
 #include "leaves/ellipse.h"
 #include "leaves/frame.h"
 #include "leaves/leaf_mesh.h"
@@ -236,6 +237,10 @@ LeafSet find_leaves(const TreeModel& tree, std::span<const Instance> instances,
         "' is transparent everywhere; its leaves are taken as whole triangles");
   }
   for (const LeafVertex& vertex : leaves.vertices) leaves.bounds.include(vertex.position);
+  const Crown crown = find_crown(leaves);
+  leaves.crown = crown.box;
+  leaves.stray_leaves = crown.strays;
+  if (crown.strays > 0) leaves.warnings.push_back(stray_warning(crown));
   sort_vertices(leaves);
   leaves.sheets = collector.sheets();
   leaves.area = leaves.sheets->area;

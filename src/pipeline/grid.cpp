@@ -29,10 +29,11 @@ void check_radii(const LeafSet& leaves, double radius_max) {
   if (leaves.vertices.empty()) {
     throw Error(ErrorCode::input, "there are no leaf vertices", "Give leaves that have an area.");
   }
+  if (leaves.crown.empty()) throw Error(ErrorCode::internal, "LeafSet::crown is not set");
   if (!std::isfinite(radius_max)) {
     throw Error(ErrorCode::usage, "R_max is not finite", "Lower --radius-max.");
   }
-  const double crown = leaves.bounds.longest_side();
+  const double crown = leaves.crown.longest_side();
   if (crown > 0 && radius_max > kLargestRadius * crown) {
     throw Error(ErrorCode::usage,
                 "R_max, " + number(radius_max) + " model units, is more than " +
@@ -63,6 +64,12 @@ void check_voxels(const LeafSet& leaves, double side, double voxel_size, Density
                 "Give a --voxel-size from " + number(side / most) + " to " + number(side) +
                     ", or a --resolution.");
   }
+  if (leaves.bounds.longest_side() / voxel_size > kMostVoxels) {
+    throw Error(ErrorCode::input,
+                "leaves lie " + number(leaves.bounds.longest_side()) +
+                    " model units apart, too far for voxels of " + number(voxel_size),
+                "Remove those far from the crown, or choose others with --leaves.");
+  }
   const Box& b = leaves.bounds;
   double farthest = 0;
   for (const double c : {b.low.x, b.low.y, b.low.z, b.high.x, b.high.y, b.high.z}) {
@@ -83,22 +90,24 @@ Lattice set_grid(const LeafSet& leaves, Report& report) {
   const Options& options = report.options;
   report.radius_max_model = radius_max_in_model_units(leaves, options);
   check_radii(leaves, report.radius_max_model);
-  const double side = leaves.bounds.longest_side() + 2 * report.radius_max_model;
+  const double side = leaves.crown.longest_side() + 2 * report.radius_max_model;
   report.voxel_size = options.voxel_size ? *options.voxel_size : side / *options.resolution;
   check_voxels(leaves, side, report.voxel_size, options.density);
   report.resolution = static_cast<int>(std::lround(side / report.voxel_size));
-  return Lattice::near(leaves.bounds.low, report.voxel_size);
+  return Lattice::near(leaves.crown.low, report.voxel_size);
 }
 
 Lattice hash_cells(const LeafSet& leaves, double radius_max) {
   constexpr double kSmallestPart = 1.0 / 256;
-  const double cell = std::max(radius_max, leaves.bounds.longest_side() * kSmallestPart);
-  return Lattice::near(leaves.bounds.low, cell);
+  constexpr double kSmallestPartOfAll = 1.0 / (1 << 26);  // whose count a coordinate holds
+  const double cell = std::max({radius_max, leaves.crown.longest_side() * kSmallestPart,
+                                leaves.bounds.longest_side() * kSmallestPartOfAll});
+  return Lattice::near(leaves.crown.low, cell);
 }
 
 Lattice leaf_lattice(const LeafSet& leaves, double radius_max) {
   const double cell = hash_cells(leaves, radius_max).voxel_size;
-  return Lattice::near(leaves.bounds.low, cell / kBrickEdge);
+  return Lattice::near(leaves.crown.low, cell / kBrickEdge);
 }
 
 }  // namespace leafhull

@@ -145,7 +145,7 @@ int resolution_of(Preset preset) { return kPresetResolutions[static_cast<std::si
 double radius_max_in_model_units(const LeafSet& leaves, const Options& resolved) {
   switch (resolved.radius_unit) {
     case RadiusUnit::crown:
-      return *resolved.radius_max * leaves.bounds.longest_side() / kCrownUnits;
+      return *resolved.radius_max * leaves.crown.longest_side() / kCrownUnits;
     case RadiusUnit::leaf:
       return *resolved.radius_max * leaves.mean_radius_major;
     case RadiusUnit::model:

@@ -35,7 +35,7 @@ KernelsKey kernels_key(const Report& report) {
 }
 
 Lattice lattice_of(const LeafSet& leaves, const Report& report) {
-  return Lattice::near(leaves.bounds.low, report.voxel_size);
+  return Lattice::near(leaves.crown.low, report.voxel_size);
 }
 
 std::vector<Vec3d> local(std::span<const Vec3d> places, const Lattice& lattice) {

@@ -111,7 +111,7 @@ void draw(TreeStudy& tree, const LeafSet& leaves, Device& device, Steps& steps) 
       radius_max = std::max(radius_max, row.radius_max);
     }
   }
-  const Frame frame = frame_of(leaves, radius_max * leaves.bounds.longest_side() / kCrownUnits);
+  const Frame frame = frame_of(leaves, radius_max * leaves.crown.longest_side() / kCrownUnits);
   auto mesh = meshes.begin();
   for (const Strip& strip : strips(own)) {
     for (const StudyRow& row : strip.rows) {

@@ -50,8 +50,8 @@ Suggestions suggest(const LeafSet& leaves, const Options& options, Device& devic
     const double side = choice.report.voxel_size;
     const auto voxels = static_cast<double>(choice.report.metrics.dilated_voxels);
     choice.dilated_volume = voxels * side * side * side;
-    if (volume(leaves.bounds) > 0) {
-      choice.dilated_share = choice.dilated_volume / volume(leaves.bounds);
+    if (volume(leaves.crown) > 0) {
+      choice.dilated_share = choice.dilated_volume / volume(leaves.crown);
     }
     choice.covered = choice.report.covered;
     pictures[i].picture = draw_shape(entry.mesh, frame, kPictureWidth, kPictureHeight);

@@ -32,6 +32,27 @@ class Inspect(CommandTest):
         self.assertAlmostEqual(page["leaves"]["crown_unit"], max(sides) / 64)
         self.assertAlmostEqual(page["leaves"]["mean_radius_ratio"], 1, places=4)
 
+    def test_strays_are_said_and_do_not_count(self):
+        positions, triangles = glb.cards()
+        plain = json.loads(self.succeed("inspect", self.tree, "--json").stdout)["leaves"]
+        self.assertEqual(plain["stray_leaves"], 0)
+        self.assertEqual(plain["crown"], plain["bounds"])
+
+        for corner in positions[:8]:
+            triangles.append([len(positions) + i for i in range(3)])
+            positions += [[corner[0], corner[1] - 12 + i / 8, corner[2] + i % 2] for i in range(3)]
+        path = self.input("strays.glb", glb.tree(positions, triangles))
+        result = self.succeed("inspect", path, "--json")
+        leaves = json.loads(result.stdout)["leaves"]
+        self.assertIn("warning: 8 leaves lie far from the crown", result.stderr)
+        self.assertEqual(leaves["stray_leaves"], 8)
+        self.assertEqual(leaves["crown"], plain["bounds"])
+        self.assertEqual(leaves["crown_unit"], plain["crown_unit"])
+        self.assertLess(leaves["bounds"]["low"][1], -10)
+        page = self.succeed("inspect", path).stdout
+        self.assertRegex(page, r"(?m)^stray leaves +8$")
+        self.assertRegex(page, r"(?m)^crown  ")
+
     def test_agrees_with_extract(self):
         inspected = json.loads(self.succeed("inspect", ASH, "--json").stdout)["leaves"]
         result = self.succeed("extract", ASH, "--preset", "paper-32", "--report", "-")

@@ -32,6 +32,7 @@ LeafSet leaf_set(std::vector<LeafVertex> vertices) {
     leaves.bounds.include(v.position);
     leaves.mean_radius_major += static_cast<double>(v.radius_major);
   }
+  leaves.crown = leaves.bounds;
   leaves.mean_radius_major /= static_cast<double>(leaves.vertices.size());
   return leaves;
 }
@@ -192,6 +193,7 @@ TEST(RigidMotion, LeavesTheIsotropicDensityAlone) {
     v.major = Vec3f(turn(Vec3d(v.major)));
     moved.bounds.include(v.position);
   }
+  moved.crown = moved.bounds;
   const double radius = ash().bounds.longest_side() / 30;
   Options options = isotropic(radius, 2, ash().bounds.longest_side() / 32);
   const auto a = extract(ash(), options, device()).isotropic_density;
@@ -287,6 +289,7 @@ TEST(FarFromTheOrigin, TheShapeIsTheSame) {
     v.position = v.position + shift;
     far.bounds.include(v.position);
   }
+  far.crown = far.bounds;
   Options options = isotropic(radius, 2, h);
   options.method = Method::controlled;
   const Shape here = extract(leaves, options, device());

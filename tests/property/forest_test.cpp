@@ -39,6 +39,7 @@ LeafSet crown(unsigned seed, int leaves, double radius) {
     }
     ++set.leaf_count;
   }
+  set.crown = set.bounds;
   set.mean_radius_major = 0.12;
   return set;
 }

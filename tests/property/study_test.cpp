@@ -31,6 +31,7 @@ LeafSet ball(std::size_t count, float radius_major) {
                                static_cast<std::uint32_t>(i)});
     leaves.bounds.include(leaves.vertices.back().position);
   }
+  leaves.crown = leaves.bounds;
   leaves.leaf_count = count;
   leaves.mean_radius_major = static_cast<double>(radius_major);
   return leaves;
