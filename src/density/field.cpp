@@ -4,6 +4,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -45,6 +46,32 @@ Field Field::at(double threshold) const {
   Field field = *this;
   field.threshold_ = threshold;
   return field;
+}
+
+void Field::raise(std::span<const BrickPart> parts, std::span<const Block> blocks) {
+  own_grid();
+  const float raised = -inside_value(threshold_);
+  tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t p) {
+    float* const values = bricks_[parts[p].brick]->buffer().data();
+    for (std::size_t x = 0; x < kBrickEdge; ++x) {
+      for (std::uint64_t bits = parts[p].samples[x]; bits != 0; bits &= bits - 1) {
+        values[64 * x + static_cast<std::size_t>(std::countr_zero(bits))] = raised;
+      }
+    }
+  });
+  std::vector<InsideBlock> inside;
+  inside.reserve(blocks.size());
+  for (const Block& block : blocks) inside.push_back({block, threshold_});
+  add_inside(inside);
+}
+
+/// Before what at() shares is altered.
+void Field::own_grid() {
+  if (negated_.use_count() == 1) return;
+  negated_ = negated_->deepCopy();
+  tbb::parallel_for(std::size_t{0}, bricks_.size(), [&](std::size_t b) {
+    bricks_[b] = negated_->tree().probeLeaf(bricks_[b]->origin());
+  });
 }
 
 std::vector<Block> Field::inside() const {

@@ -3,12 +3,23 @@
 
 #include <openvdb/openvdb.h>
 
+#include <array>
+#include <cstdint>
 #include <span>
 #include <vector>
 
 #include "density/lattice.h"
 
 namespace leafhull {
+
+/// A bit per sample of a brick: a word per x, bit 8 y + z.
+using SampleBits = std::array<std::uint64_t, kBrickEdge>;
+
+/// Some samples of an evaluated brick, by its place in Field::bricks().
+struct BrickPart {
+  std::size_t brick;
+  SampleBits samples;
+};
 
 /// The density N on the lattice: samples where a surface may be, whole blocks where N is proven to
 /// be at least a threshold, and nothing where it is proven to be below all.
@@ -26,6 +37,11 @@ class Field {
 
   /// The same samples with the surface at another of the thresholds that they were evaluated for.
   Field at(double threshold) const;
+
+  /// Raises samples that are below T, and blocks that are neither evaluated nor inside, to the
+  /// lowest value inside, for this threshold alone. Where fields share a grid, the others keep what
+  /// they have.
+  void raise(std::span<const BrickPart> parts, std::span<const Block> blocks);
 
   const Lattice& lattice() const { return lattice_; }
   double threshold() const { return threshold_; }  ///< T
@@ -45,10 +61,12 @@ class Field {
   float highest() const;
 
  private:
+  void own_grid();
+
   Lattice lattice_;
   double threshold_;
   openvdb::FloatGrid::Ptr negated_ = openvdb::FloatGrid::create(0.0f);
-  std::vector<const Brick*> bricks_;
+  std::vector<Brick*> bricks_;
   std::vector<InsideBlock> inside_;
 };
 

@@ -4,55 +4,27 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <numeric>
-#include <tuple>
+#include <utility>
+
+#include "surface/disjoint_sets.h"
 
 namespace leafhull {
 namespace {
 
-/// For each vertex the lowest vertex that it is connected to, whatever the order of the faces:
-/// of two trees that meet, the root of the higher one comes under the other's.
-class Roots {
- public:
-  explicit Roots(const Polygons& polygons) : parent_(polygons.points.size()) {
-    std::iota(parent_.begin(), parent_.end(), 0u);
-    tbb::parallel_for(std::size_t{0}, polygons.faces.size(), [&](std::size_t f) {
-      const auto [a, b, c, d] = polygons.faces[f];
-      unite(a, b);
-      unite(b, c);
-      unite(c, d);
-    });
-    tbb::parallel_for(0u, static_cast<std::uint32_t>(parent_.size()), [&](std::uint32_t v) {
-      parent(v).store(find(v), std::memory_order_relaxed);
-    });
-  }
-  std::uint32_t operator[](std::uint32_t v) const { return parent_[v]; }
-  std::vector<std::uint32_t> take() && { return std::move(parent_); }
+/// The lowest vertex that each is connected to.
+using Roots = std::vector<std::uint32_t>;
 
- private:
-  std::atomic_ref<std::uint32_t> parent(std::uint32_t v) { return std::atomic_ref(parent_[v]); }
-
-  std::uint32_t find(std::uint32_t v) {
-    for (;;) {
-      std::uint32_t up = parent(v);
-      const std::uint32_t next = parent(up);
-      if (up == next) return up;
-      parent(v).compare_exchange_weak(up, next);  // another thread may have gone further
-      v = next;
-    }
-  }
-
-  void unite(std::uint32_t a, std::uint32_t b) {
-    for (;;) {
-      std::tie(a, b) = std::minmax({find(a), find(b)});
-      if (a == b || parent(b).compare_exchange_strong(b, a)) return;
-    }
-  }
-
-  std::vector<std::uint32_t> parent_;
-};
+Roots roots_of(const Polygons& polygons) {
+  DisjointSets sets(polygons.points.size());
+  tbb::parallel_for(std::size_t{0}, polygons.faces.size(), [&](std::size_t f) {
+    const auto [a, b, c, d] = polygons.faces[f];
+    sets.unite(a, b);
+    sets.unite(b, c);
+    sets.unite(c, d);
+  });
+  return std::move(sets).lowest();
+}
 
 /// The volume that each component encloses, times twelve, at its root vertex. A quad counts as the
 /// mean of its two foldings, so that it does not matter at which corner it begins.
@@ -75,7 +47,7 @@ std::vector<double> volumes(const Polygons& polygons, const Roots& root) {
 class Components {
  public:
   Components(const Polygons& polygons, double smallest)
-      : root_(polygons), volume_(volumes(polygons, root_)) {
+      : root_(roots_of(polygons)), volume_(volumes(polygons, root_)) {
     if (!volume_.empty()) {
       least_ = smallest * *std::max_element(volume_.begin(), volume_.end());
     }
@@ -92,7 +64,7 @@ class Components {
 }  // namespace
 
 std::vector<std::uint32_t> component_of_each(const Polygons& polygons) {
-  return Roots(polygons).take();
+  return roots_of(polygons);
 }
 
 ComponentCells cells_of_components(const Polygons& polygons, double smallest) {

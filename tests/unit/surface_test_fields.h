@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <functional>
+#include <set>
 #include <vector>
 
 #include "density/field.h"
@@ -26,6 +29,47 @@ inline Field field_of(const std::function<double(Vec3d)>& density, double thresh
     for (int y = low.y; y < high.y; y += kBrickEdge) {
       for (int z = low.z; z < high.z; z += kBrickEdge) {
         add_brick(field, density, {x, y, z});
+      }
+    }
+  }
+  return field;
+}
+
+inline bool is_inside(const Field& field, Coord at) {
+  const openvdb::Coord c(at.x, at.y, at.z);
+  return field.negated().tree().getValue(c) < field.iso_value();
+}
+
+/// Calls visit with every sample of [low, high).
+template <class Visit>
+void for_each_sample(Coord low, Coord high, const Visit& visit) {
+  for (int x = low.x; x < high.x; ++x) {
+    for (int y = low.y; y < high.y; ++y) {
+      for (int z = low.z; z < high.z; ++z) visit(Coord{x, y, z});
+    }
+  }
+}
+
+/// The field of a function for ascending thresholds, as a search for the band would leave it:
+/// blocks that are decided with a sample around them are not evaluated.
+inline Field band_of(const std::function<double(Vec3d)>& density,
+                     const std::vector<double>& thresholds, Coord low, Coord high) {
+  Field field({}, thresholds.front());
+  for (int x = low.x; x < high.x; x += kBrickEdge) {
+    for (int y = low.y; y < high.y; y += kBrickEdge) {
+      for (int z = low.z; z < high.z; z += kBrickEdge) {
+        std::set<std::ptrdiff_t> reached;
+        for_each_sample({x - 1, y - 1, z - 1}, {x + 9, y + 9, z + 9}, [&](Coord at) {
+          const auto t =
+              std::upper_bound(thresholds.begin(), thresholds.end(), density(to_vec3d(at)));
+          reached.insert(t - thresholds.begin());
+        });
+        if (reached.size() > 1) {
+          add_brick(field, density, {x, y, z});
+        } else if (const std::ptrdiff_t t = *reached.begin(); t > 0) {
+          const double proven = thresholds[static_cast<std::size_t>(t - 1)];
+          field.add_inside(std::vector<InsideBlock>{{{{x, y, z}, kBrickEdge}, proven}});
+        }
       }
     }
   }
