@@ -22,6 +22,7 @@ enum class PointSource { area, vertices };
 enum class RadiusUnit { crown, leaf, model };
 enum class Spread { stddev, variance };
 enum class DensitySource { exact, grid };
+enum class Hollows { fill, keep };
 enum class Mesher { vdb, bricks };
 enum class Preset { paper_32, paper_64, paper_128, draft, standard, fine, ultra, film };
 
@@ -50,6 +51,7 @@ struct Options {
   double band_low = 0;   ///< a1
   double band_high = 2;  ///< a2
   std::optional<double> min_component;
+  std::optional<Hollows> hollows;
 
   // Resolution and surface: at most one of the first three is set by a user
   std::optional<Preset> preset;
@@ -70,6 +72,7 @@ std::span<const std::string_view> names(PointSource);
 std::span<const std::string_view> names(RadiusUnit);
 std::span<const std::string_view> names(Spread);
 std::span<const std::string_view> names(DensitySource);
+std::span<const std::string_view> names(Hollows);
 std::span<const std::string_view> names(Mesher);
 std::span<const std::string_view> names(Preset);
 
@@ -82,8 +85,8 @@ std::string_view name(Enum value) {
 int resolution_of(Preset preset);
 
 /// `options` with the style's values where nothing was asked for, everything checked. Afterwards
-/// `method`, `radius_max`, `flatness`, `points`, `point_spacing` and `min_component` are set,
-/// exactly one of the three thresholds is, and `resolution` or `voxel_size` is.
+/// `method`, `radius_max`, `flatness`, `points`, `point_spacing`, `min_component` and `hollows` are
+/// set, exactly one of the three thresholds is, and `resolution` or `voxel_size` is.
 /// @throws Error usage: a value out of range, or two options that contradict each other.
 Options resolve(Options options);
 
@@ -97,7 +100,8 @@ struct OptionRow {
                    std::optional<int> Options::*, std::optional<double> Options::*,
                    Style Options::*, std::optional<Method> Options::*, RadiusUnit Options::*,
                    std::optional<PointSource> Options::*, Spread Options::*,
-                   DensitySource Options::*, Mesher Options::*, std::optional<Preset> Options::*,
+                   DensitySource Options::*, std::optional<Hollows> Options::*, Mesher Options::*,
+                   std::optional<Preset> Options::*,
                    std::vector<std::string> Options::*, std::optional<TextureEllipse> Options::*>;
 
   /// As in the flag --name and, with underscores, in the report. What is on by default has the

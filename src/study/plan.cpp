@@ -70,6 +70,7 @@ Options options_of(const StudyRow& row, const Reading& reading, int resolution) 
   options.flatness = row.flatness;
   options.points = PointSource::vertices;
   options.min_component = 0;
+  options.hollows = Hollows::keep;
   options.falloff = reading.falloff;
   options.spread = reading.spread;
   options.density = reading.density;
