@@ -36,6 +36,7 @@ Arguments parse(CLI::App& app, int argc, char** argv) {
 Options options_of(const Arguments& a) {
   Options options;
   options.style = a.style == "painterly" ? Style::painterly : Style::paper_previous;
+  options.points = PointSource::vertices;  // as its peers take them
   options.resolution = a.resolution;
   options.voxel_size = a.voxel;
   if (a.radius) {

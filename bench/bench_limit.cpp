@@ -12,6 +12,7 @@
 #include "bench/pairs.h"
 #include "density/control.h"
 #include "device/engine.h"
+#include "points/leaf_points.h"
 
 namespace leafhull {
 extern const std::string_view kernel_source_limit;
@@ -116,7 +117,7 @@ Json stages_of(const Case& c, Method method, Device& device, double peak) {
   const Options options = options_of(c, method);
   const std::map<std::string, double> seconds = seconds_by_stage(leaves, options, device);
   const Shape shape = extract(leaves, options, device);
-  const std::vector<Kernel> isotropic = isotropic_kernels(leaves.vertices, c.radius);
+  const std::vector<Kernel> isotropic = isotropic_kernels(vertex_points(leaves).points, c.radius, options.falloff);
   const std::map<std::string, Pairs> pairs = {
       {"isotropic density",
        {pairs_inside(isotropic, leaves.vertices),

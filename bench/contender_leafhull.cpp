@@ -9,6 +9,7 @@
 #include "leafhull/version.h"
 #include "pipeline/evaluate.h"
 #include "pipeline/grid.h"
+#include "points/leaf_points.h"
 
 namespace leafhull::bench {
 namespace {
@@ -37,7 +38,8 @@ double seconds_of_isotropic_field(const LeafSet& leaves, const Report& report, D
     Report grid;
     grid.options = report.options;
     const Lattice lattice = set_grid(leaves, grid);
-    const std::vector<Kernel> kernels = isotropic_kernels(leaves.vertices, report.radius_max_model);
+    const std::vector<Kernel> kernels = isotropic_kernels(
+        vertex_points(leaves).points, report.radius_max_model, report.options.falloff);
     const auto hash =
         std::make_shared<const SpatialHash>(kernels, hash_cells(leaves, report.radius_max_model));
     DensityFunction density(device, kernels, hash, lattice, report.options.falloff);

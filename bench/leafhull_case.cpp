@@ -28,6 +28,7 @@ LeafSet load_leaves(const std::string& tree) { return find_leaves(load_tree(tree
 Options options_of(const Case& c, Method method) {
   Options options;
   options.method = method;
+  options.points = PointSource::vertices;  // as its peers take them
   options.threshold = c.threshold;
   options.coverage = c.coverage;
   options.radius_max = c.radius;

@@ -121,8 +121,8 @@ std::vector<DensityFunction> controlled(std::span<const Leaf> leaves,
     const double n = isotropic_density[j];
     const double share = n <= p1 ? 0 : n >= p2 ? 1 : (n - p1) / (p2 - p1);
     const auto bound = [&](double radius) {
-      return std::max(parameters.radius_max + (radius - parameters.radius_max) * share,
-                      kSmallestRadius * parameters.radius_max);
+      return std::clamp(parameters.radius_max + (radius - parameters.radius_max) * share,
+                        kSmallestRadius * parameters.radius_max, parameters.radius_max);
     };
     functions.push_back(density_function(leaves[j], bound(leaves[j].radius_major),
                                          bound(leaves[j].radius_minor),
@@ -135,11 +135,8 @@ std::vector<DensityFunction> controlled(std::span<const Leaf> leaves,
 
 Grid set_grid(std::span<const Leaf> leaves, const Parameters& parameters) {
   Box box;
-  double reach = parameters.radius_max;
-  for (const Leaf& leaf : leaves) {
-    box.include(leaf.position);
-    if (parameters.controlled) reach = std::max(reach, leaf.radius_major);
-  }
+  const double reach = parameters.radius_max;
+  for (const Leaf& leaf : leaves) box.include(leaf.position);
   Grid grid;
   grid.voxel = parameters.voxel;
   const std::array<double, 3> low = {box.low.x, box.low.y, box.low.z};

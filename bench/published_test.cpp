@@ -87,6 +87,7 @@ TEST_P(PublishedField, IsLeafhulls) {
   Options options;
   options.method = GetParam();
   options.resolution = 32;
+  options.points = PointSource::vertices;
   options.threshold = 4;
   options.density = DensitySource::grid;  // as step 2 says it
   Device device{{}};

@@ -43,7 +43,7 @@ ROOMS = {
     ),
     "cli": (("text",), ("cli11", "json")),
     "bench": (
-        ("density", "device", "picture", "pipeline", "surface"),
+        ("density", "device", "picture", "pipeline", "points", "surface"),
         ("cgal", "cli11", "gtest", "json", "opencl", "openvdb", "tbb"),
     ),
 }

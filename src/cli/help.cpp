@@ -90,6 +90,7 @@ std::string style_line(Style style) {
   if (values.threshold) text += ", T " + number(*values.threshold);
   if (values.coverage) text += ", coverage " + number(*values.coverage);
   if (values.method != Method::isotropic) text += ", flatness " + number(*values.flatness);
+  if (*values.points == PointSource::vertices) text += ", points vertices";
   if (*values.min_component > 0) text += ", min-component " + number(*values.min_component);
   return entry(name(style), text);
 }

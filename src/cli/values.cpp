@@ -49,6 +49,12 @@ void assign(int& value, std::string_view flag, const std::string& text) {
   value = *whole;
 }
 
+void assign(Style& value, std::string_view flag, const std::string& text) {
+  // The name that it had up to 0.1.
+  value = text == "luft-deussen" ? Style::paper_previous
+                                 : static_cast<Style>(choice(flag, text, names(value)));
+}
+
 template <class Enum>
 requires std::is_enum_v<Enum>
 void assign(Enum& value, std::string_view flag, const std::string& text) {

@@ -98,6 +98,25 @@ Kernel controlled_kernel(const LeafPoint& leaf, float density, const DensityStat
                    resolved.falloff);
 }
 
+double clear_of_sheets(std::vector<WeightedDensity>& densities, double threshold) {
+  constexpr double kFilm = 1.2, kMost = 0.5, kBelowSheet = 0.6;
+  std::ranges::sort(densities, {}, &WeightedDensity::density);
+  std::uint64_t above = 0, film = 0;
+  for (const WeightedDensity& d : densities) {
+    const auto n = static_cast<double>(d.density);
+    if (n >= threshold) above += d.weight;
+    if (n >= threshold && n < kFilm * threshold) film += d.weight;
+  }
+  if (static_cast<double>(film) <= kMost * static_cast<double>(above)) return threshold;
+  std::uint64_t below_middle = 0;
+  for (const WeightedDensity& d : densities) {
+    if (static_cast<double>(d.density) < threshold) continue;
+    below_middle += d.weight;
+    if (2 * below_middle >= above) return kBelowSheet * static_cast<double>(d.density);
+  }
+  return threshold;
+}
+
 double threshold_for_coverage(std::span<const float> density, double coverage) {
   std::vector<float> ranked(density.begin(), density.end());
   const std::size_t count = ranked.size();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -40,6 +41,17 @@ Kernel controlled_kernel(const LeafPoint& leaf, float density, const DensityStat
 
 /// The share of anisotropy at density n, 0 at p1 and below to 1 at p2 and above. Source: Eq. (8).
 double anisotropy(double n, const DensityStatistics& statistics);
+
+/// A density, and how much it counts: whole numbers, whose sums do not depend on their order.
+struct WeightedDensity {
+  float density;
+  std::uint64_t weight = 1;
+};
+
+/// `threshold`, or where most of the leaf area above it is above it by less than a fifth, 0.6 of
+/// what that area has in the middle. A closed crown is one sheet on which N is 1 all over: at a T
+/// next to that its surface would be a film with holes. `densities` come back sorted.
+double clear_of_sheets(std::vector<WeightedDensity>& densities, double threshold);
 
 /// T such that the fraction `coverage` of the densities is at least T: halfway between the two
 /// neighbours in rank, so that rounding does not move a leaf vertex across.

@@ -132,7 +132,8 @@ double threshold_of(const ForestLevel& level, std::span<const ModelUse> uses,
       }
       for (const float n : model.density) densities.push_back({n, weight});
     }
-    return threshold_for_coverage(densities, *options.coverage);
+    const double threshold = threshold_for_coverage(densities, *options.coverage);
+    return options.points == PointSource::area ? clear_of_sheets(densities, threshold) : threshold;
   }
   const double mean = weighted_mean(level.models, uses);
   if (options.threshold_percent) return *options.threshold_percent / 100 * mean;

@@ -8,6 +8,7 @@
 
 #include "forest/tile.h"
 #include "leafhull/forest.h"
+#include "density/control.h"
 #include "leafhull/leaves.h"
 #include "leafhull/shape.h"
 #include "pipeline/stopwatch.h"
@@ -88,12 +89,6 @@ ForestLevel prepare_level(int level, std::span<const LeafSet> models,
 /// The level's `least`: the share that the options ask for, of the largest piece of the smallest
 /// tree, standing alone. Computes the surface of every model.
 ExactVolume least_volume(const ForestLevel& level, std::span<const ModelUse> uses, Device& device);
-
-/// A density, and how much it counts: whole numbers, whose sums do not depend on their order.
-struct WeightedDensity {
-  float density;
-  std::uint64_t weight;
-};
 
 /// How much a leaf point counts whose area grows by `growth`: by its area, a vertex for one.
 std::uint64_t weight_of(const LeafPoint& leaf, double growth, const ForestLevel& level);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <limits>
+#include <string>
 
 #include "density/control.h"
 #include "leafhull/error.h"
@@ -55,12 +56,22 @@ std::vector<Vec3d> positions_of(const std::vector<Point>& points) {
   return positions;
 }
 
+/// T for a coverage.
+double threshold_for(const Options& options, std::span<const float> density) {
+  const double threshold = threshold_for_coverage(density, *options.coverage);
+  if (options.points != PointSource::area) return threshold;
+  std::vector<WeightedDensity> all;
+  all.reserve(density.size());
+  for (const float n : density) all.push_back({n});
+  return clear_of_sheets(all, threshold);
+}
+
 double threshold_of(const Options& options, const DensityStatistics& statistics,
                     std::span<const float> density) {
   const double threshold = options.threshold ? *options.threshold
                            : options.threshold_percent
                                ? *options.threshold_percent / 100 * statistics.mean
-                               : threshold_for_coverage(density, *options.coverage);
+                               : threshold_for(options, density);
   if (threshold < static_cast<double>(std::numeric_limits<float>::min())) {
     throw Error(ErrorCode::usage, "the threshold T is too small for a density",
                 "Raise --threshold to 1e-30 or more.");
@@ -74,7 +85,7 @@ constexpr double kCoverageMissed = 0.02;
 void warn_of_points(const LeafSet& leaves, const Options& options, std::span<const float> there,
                     Report& report) {
   char text[240];
-  if (options.points == PointSource::vertices && options.method != Method::isotropic &&
+  if (options.points == PointSource::vertices &&
       leaves.mean_radius_major > report.radius_max_model) {
     std::snprintf(
         text, sizeof text,
@@ -92,12 +103,28 @@ void warn_of_points(const LeafSet& leaves, const Options& options, std::span<con
   if (std::max(report.covered - *options.coverage, *options.coverage - low) <= kCoverageMissed) {
     return;
   }
-  std::snprintf(
-      text, sizeof text,
-      "a coverage of %.3g cannot be had: many leaf vertices have the same density %.4g, and "
-      "between %.0f%% and %.0f%% of them lie inside (change --radius-max)",
-      *options.coverage, report.threshold, 100 * low, 100 * report.covered);
+  if (options.points == PointSource::area) {
+    std::snprintf(text, sizeof text,
+                  "a coverage of %.3g cannot be had: most leaves are sheets of one density; T = %.3g, "
+                  "well below it, takes in %.0f%% of the leaf area",
+                  *options.coverage, report.threshold, 100 * report.covered);
+  } else {
+    std::snprintf(text, sizeof text,
+                  "a coverage of %.3g cannot be had: many leaf vertices have the density %.4g, and "
+                  "between %.0f%% and %.0f%% of all lie inside (--points area avoids that)",
+                  *options.coverage, report.threshold, 100 * low, 100 * report.covered);
+  }
   report.warnings.emplace_back(text);
+}
+
+/// More than these is no mass but crumbs.
+constexpr std::uint64_t kManyPieces = 50;
+
+void warn_of_pieces(std::uint64_t pieces, Report& report) {
+  if (pieces <= kManyPieces) return;
+  report.warnings.push_back("the shape falls into " + std::to_string(pieces) +
+                            " pieces: raise --radius-max or --coverage to join them, or "
+                            "--min-component to drop the small ones");
 }
 
 }  // namespace
@@ -229,6 +256,7 @@ Polygons Stages::polygonise(const Field& field, Mesher mesher, Report& report) c
                           : leafhull::polygonise(field, options.adaptivity);
   const ComponentCount components = drop_small_components(polygons, *options.min_component);
   report.counts.components = components.kept;
+  warn_of_pieces(components.kept, report);
   report.counts.dropped_components = components.dropped;
   return polygons;
 }

@@ -36,7 +36,7 @@ class Kept {
     value = Value();
   }
 
-  Value value{};
+  Value value = Value();
 
  private:
   std::optional<Key> key_;
