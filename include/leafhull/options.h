@@ -20,6 +20,7 @@ enum class Method { isotropic, uncontrolled, controlled };
 enum class RadiusUnit { crown, leaf, model };
 enum class Spread { stddev, variance };
 enum class DensitySource { exact, grid };
+enum class Hollows { fill, keep };
 enum class Mesher { vdb, bricks };
 enum class Preset { paper_32, paper_64, paper_128, draft, standard, fine, ultra, film };
 
@@ -46,6 +47,7 @@ struct Options {
   double band_low = 0;   ///< a1
   double band_high = 2;  ///< a2
   std::optional<double> min_component;
+  std::optional<Hollows> hollows;
 
   // Resolution and surface: at most one of the first three is set by a user
   std::optional<Preset> preset;
@@ -65,6 +67,7 @@ std::span<const std::string_view> names(Method);
 std::span<const std::string_view> names(RadiusUnit);
 std::span<const std::string_view> names(Spread);
 std::span<const std::string_view> names(DensitySource);
+std::span<const std::string_view> names(Hollows);
 std::span<const std::string_view> names(Mesher);
 std::span<const std::string_view> names(Preset);
 
@@ -77,8 +80,8 @@ std::string_view name(Enum value) {
 int resolution_of(Preset preset);
 
 /// `options` with the style's values where nothing was asked for, everything checked. Afterwards
-/// `method`, `radius_max`, `flatness` and `min_component` are set, exactly one of the three
-/// thresholds is, and `resolution` or `voxel_size` is.
+/// `method`, `radius_max`, `flatness`, `min_component` and `hollows` are set, exactly one of the
+/// three thresholds is, and `resolution` or `voxel_size` is.
 /// @throws Error usage: a value out of range, or two options that contradict each other.
 Options resolve(Options options);
 
@@ -91,9 +94,9 @@ struct OptionRow {
       std::variant<bool Options::*, int Options::*, double Options::*,
                    std::optional<int> Options::*, std::optional<double> Options::*,
                    Style Options::*, std::optional<Method> Options::*, RadiusUnit Options::*,
-                   Spread Options::*, DensitySource Options::*, Mesher Options::*,
-                   std::optional<Preset> Options::*, std::vector<std::string> Options::*,
-                   std::optional<TextureEllipse> Options::*>;
+                   Spread Options::*, DensitySource Options::*, std::optional<Hollows> Options::*,
+                   Mesher Options::*, std::optional<Preset> Options::*,
+                   std::vector<std::string> Options::*, std::optional<TextureEllipse> Options::*>;
 
   /// As in the flag --name and, with underscores, in the report. What is on by default has the
   /// flag --no-name.

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "forest/level.h"
 #include "forest/store.h"
 #include "leafhull/version.h"
 #include "output/report.h"
@@ -55,7 +56,7 @@ nlohmann::ordered_json forest_identity(const Scene& scene, std::span<const LeafS
                 {"placing", checksum(scene.trees)},
                 {"models", leaves},
                 {"merge", name(options.merge)},
-                {"options", options_object(resolve(options.shape))}};
+                {"options", options_object(resolved_shape(options))}};
   if (options.merge == Merge::canopy) {
     identity["control_scope"] = name(options.control_scope);
     identity["levels"] = options.levels;

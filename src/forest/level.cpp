@@ -141,6 +141,12 @@ double largest_piece(const ForestModel& model, const ForestLevel& level, Device&
 
 }  // namespace
 
+Options resolved_shape(const ForestOptions& options) {
+  Options resolved = resolve(options.shape);
+  if (options.merge == Merge::canopy) resolved.hollows = Hollows::keep;
+  return resolved;
+}
+
 std::vector<ModelUse> model_uses(const Scene& scene) {
   std::vector<ModelUse> uses(scene.models.size());
   for (const PlacedTree& tree : scene.trees) {

@@ -51,6 +51,10 @@ struct ForestLevel {
   double error = 0;       ///< how far the surface may be from the finest, scene units
 };
 
+/// The options of the shapes, resolved. A canopy keeps its hollows: a tile cannot tell whether one
+/// is closed.
+Options resolved_shape(const ForestOptions& options);
+
 /// How often each model is placed, and the trees' extremes.
 struct ModelUse {
   std::uint64_t trees = 0;

@@ -4,6 +4,7 @@
 #include <array>
 #include <string_view>
 
+#include "forest/level.h"
 #include "leafhull/forest.h"
 #include "leafhull/version.h"
 
@@ -16,7 +17,7 @@ using Json = nlohmann::ordered_json;
 constexpr std::array<std::string_view, 2> kNotOfForests = {"mesher", "adaptivity"};
 
 Json options_of(const ForestOptions& options) {
-  Json object = options_object(resolve(options.shape));
+  Json object = options_object(resolved_shape(options));
   for (const std::string_view key : kNotOfForests) object.erase(std::string(key));
   object["merge"] = name(options.merge);
   object["control_scope"] = name(options.control_scope);

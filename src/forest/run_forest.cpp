@@ -63,6 +63,10 @@ void check(const ForestOptions& options) {
   if (options.shape.dense || options.shape.adaptivity > 0) {
     refuse("tiles have neither --dense nor --adaptivity", "Leave them out, or add --merge none.");
   }
+  if (options.shape.hollows == Hollows::fill) {
+    refuse("a tile cannot tell whether a hollow is closed",
+           "Leave out --hollows fill, or add --merge none.");
+  }
 }
 
 /// A tile of one of the levels.
@@ -168,7 +172,7 @@ class Run {
   void prepare() {
     watch_.start("models");
     tell("models");
-    const Options resolved = resolve(options_.shape);
+    const Options resolved = resolved_shape(options_);
     const std::vector<ModelUse> uses = model_uses(scene_);
     const std::vector<LeafSet> models = read_models(scene_, uses, resolved.leaf_options());
     const double voxel_size = voxel_size_of(models, uses, resolved);

@@ -40,9 +40,10 @@ DirectSurface::DirectSurface(const LeafSet& leaves, const Options& options, Devi
   d.report.options = resolve(options);
   d.report.options.adaptivity = 0;  // it is of meshes, and widens what is sampled
   stages.prepare(d.report);
-  const Field& field = stages.sample(d.report, {d.report.threshold});
+  stages.sample(d.report, {d.report.threshold});
+  d.field = std::make_shared<const Field>(stages.take_field(d.report));
+  const Field& field = *d.field;
   if (!reaches(field)) stages.refuse_empty(field, d.report);
-  d.field = stages.field();
 
   d.watch.start("bricks");
   d.grid.emplace(field);

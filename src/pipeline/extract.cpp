@@ -16,7 +16,9 @@ Shape extract(const LeafSet& leaves, const Options& asked, Device& device,
   report.options = resolve(asked);
 
   stages.prepare(report);
-  const Field& field = stages.sample(report, {report.threshold});
+  stages.sample(report, {report.threshold});
+  shape.field = std::make_shared<const Field>(stages.take_field(report));
+  const Field& field = *shape.field;
   Polygons polygons = stages.polygonise(field, report.options.mesher, report);
   if (polygons.points.empty()) stages.refuse_empty(field, report);
 
@@ -27,7 +29,6 @@ Shape extract(const LeafSet& leaves, const Options& asked, Device& device,
 
   stages.measure(field, report);
   report.seconds = watch.finish();
-  shape.field = stages.field();
   shape.kernels = stages.take_kernels();
   shape.isotropic_density = stages.take_isotropic_density();
   return shape;

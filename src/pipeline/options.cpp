@@ -16,6 +16,7 @@ constexpr std::string_view kMethodNames[] = {"isotropic", "uncontrolled", "contr
 constexpr std::string_view kRadiusUnitNames[] = {"crown", "leaf", "model"};
 constexpr std::string_view kSpreadNames[] = {"stddev", "variance"};
 constexpr std::string_view kDensityNames[] = {"exact", "grid"};
+constexpr std::string_view kHollowsNames[] = {"fill", "keep"};
 constexpr std::string_view kMesherNames[] = {"vdb", "bricks"};
 constexpr std::string_view kPresetNames[] = {"paper-32", "paper-64", "paper-128", "draft",
                                              "standard", "fine",     "ultra",     "film"};
@@ -29,14 +30,15 @@ struct StyleValues {
   std::optional<double> threshold, coverage;
   double flatness;
   double min_component;
+  Hollows hollows;
 };
 
 // Luft and Deussen's spheres are not flattened: 1 keeps them round under another method, too.
 constexpr StyleValues kStyles[] = {
-    {Method::controlled, 2.5, {}, 0.92, 0.8, 0.001},
-    {Method::controlled, 1.4, 2.0, {}, 0.7, 0},
-    {Method::controlled, 1.6, 2.0, {}, 1.0, 0},
-    {Method::isotropic, 1.5, 1.5, {}, 1.0, 0},
+    {Method::controlled, 2.5, {}, 0.92, 0.8, 0.001, Hollows::keep},
+    {Method::controlled, 1.4, 2.0, {}, 0.7, 0, Hollows::keep},
+    {Method::controlled, 1.6, 2.0, {}, 1.0, 0, Hollows::keep},
+    {Method::isotropic, 1.5, 1.5, {}, 1.0, 0, Hollows::keep},
 };
 static_assert(std::size(kStyles) == std::size(kStyleNames));
 
@@ -129,6 +131,7 @@ std::span<const std::string_view> names(Method) { return kMethodNames; }
 std::span<const std::string_view> names(RadiusUnit) { return kRadiusUnitNames; }
 std::span<const std::string_view> names(Spread) { return kSpreadNames; }
 std::span<const std::string_view> names(DensitySource) { return kDensityNames; }
+std::span<const std::string_view> names(Hollows) { return kHollowsNames; }
 std::span<const std::string_view> names(Mesher) { return kMesherNames; }
 std::span<const std::string_view> names(Preset) { return kPresetNames; }
 
@@ -157,6 +160,7 @@ Options resolve(Options options) {
   if (!options.radius_max) options.radius_max = style.radius_max;
   if (!options.flatness) options.flatness = style.flatness;
   if (!options.min_component) options.min_component = style.min_component;
+  if (!options.hollows) options.hollows = style.hollows;
   if (!options.threshold && !options.threshold_percent && !options.coverage) {
     options.threshold = style.threshold;
     options.coverage = style.coverage;

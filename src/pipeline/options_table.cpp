@@ -165,6 +165,12 @@ std::span<const OptionRow> option_table() {
        .member = &Options::min_component,
        .low = 0,
        .high = 1},
+      {.name = "hollows",
+       .group = "Shape",
+       .range = choices<Hollows>(),
+       .default_value = "by style",
+       .help = "a cavity that cannot be reached from outside: filled, or kept as it is",
+       .member = &Options::hollows},
 
       // Resolution and surface
       {.name = "preset",

@@ -81,12 +81,10 @@ class Series {
       const std::size_t half = group.size() / 2;
       return extract_at(group.first(half)) && extract_at(group.subspan(half));
     }
-    const Field* field = nullptr;
-    const std::string failure = failure_of([&] { field = &stages_.sample(first, thresholds); });
+    const std::string failure = failure_of([&] { stages_.sample(first, thresholds); });
     if (!failure.empty()) return fail(group, failure);
-    return std::all_of(group.begin(), group.end(), [&](Entry& entry) {
-      return extract(entry, field->at(entry.report.threshold));
-    });
+    return std::all_of(group.begin(), group.end(),
+                       [&](Entry& entry) { return extract(entry, stages_.field(entry.report)); });
   }
 
   bool extract(Entry& entry, const Field& field) {

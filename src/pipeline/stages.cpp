@@ -11,6 +11,7 @@
 #include "pipeline/grid.h"
 #include "pipeline/memory.h"
 #include "surface/brick_mesher.h"
+#include "surface/hollows.h"
 #include "surface/metrics.h"
 
 namespace leafhull {
@@ -114,7 +115,7 @@ FieldMemory Stages::memory(const Report& prepared, const std::vector<double>& th
   return {kernels_.value, hash_.value, leaves_.bounds, prepared, thresholds, available_memory()};
 }
 
-const Field& Stages::sample(const Report& prepared, const std::vector<double>& thresholds) {
+void Stages::sample(const Report& prepared, const std::vector<double>& thresholds) {
   watch_.start("field");
   const FieldKey key = field_key(prepared);
   sampled_.update({key, thresholds}, [&] {
@@ -124,10 +125,22 @@ const Field& Stages::sample(const Report& prepared, const std::vector<double>& t
                      prepared.options.falloff);
     auto [field, pairs, lists] = density_->sample_band(thresholds, margin, dense, lists_,
                                                        [&](double done) { watch_.advance(done); });
-    return Sampled{std::make_shared<const Field>(std::move(field)), pairs,
-                   std::make_shared<const BrickList>(std::move(lists))};
+    return Sampled{std::move(field), pairs, std::make_shared<const BrickList>(std::move(lists))};
   });
-  return *sampled_.value.field;
+}
+
+Field Stages::field(const Report& prepared) const {
+  return without_hollows(sampled_.value.field.at(prepared.threshold), prepared);
+}
+
+Field Stages::take_field(const Report& prepared) {
+  return without_hollows(std::move(sampled_.value.field), prepared);
+}
+
+Field Stages::without_hollows(Field field, const Report& prepared) const {
+  if (prepared.options.hollows == Hollows::keep) return field;
+  watch_.start("hollows");
+  return fill_hollows(std::move(field));
 }
 
 Polygons Stages::polygonise(const Field& field, Mesher mesher, Report& report) const {

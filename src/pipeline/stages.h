@@ -71,9 +71,15 @@ class Stages {
 
   /// Step 6, after prepare(): N where a surface can be, for all of `thresholds`, ascending.
   /// @throws Error usage where it does not fit in memory.
-  const Field& sample(const Report& prepared, const std::vector<double>& thresholds);
+  void sample(const Report& prepared, const std::vector<double>& thresholds);
 
-  /// Step 7: the surface of a field that sample() returned, small components dropped, which sets
+  /// The shape as step 7 takes it: what sample() has found, at the report's T, hollows filled where
+  /// its options say so.
+  Field field(const Report& prepared) const;
+  /// The same without keeping what was sampled: nothing is held twice.
+  Field take_field(const Report& prepared);
+
+  /// Step 7: the surface of such a field, small components dropped, which sets
   /// their counts. No polygons where no sample reaches T. `mesher` is for surfaces without
   /// adaptivity; both give the same vertices and quads, in orders of their own.
   Polygons polygonise(const Field& field, Mesher mesher, Report& report) const;
@@ -89,17 +95,17 @@ class Stages {
   std::vector<Kernel> take_kernels() { return std::move(kernels_.value); }
   std::vector<float> take_density_there() { return std::move(density_there_.value); }
   std::vector<float> take_isotropic_density() { return std::move(isotropic_density_.value); }
-  std::shared_ptr<const Field> field() const { return sampled_.value.field; }
   std::shared_ptr<const BrickList> lists() const { return sampled_.value.lists; }
 
  private:
   struct Sampled {
-    std::shared_ptr<const Field> field;
+    Field field{};
     std::uint64_t pairs = 0;
     std::shared_ptr<const BrickList> lists;
   };
 
   std::vector<float> density_at_leaves(const Report& report, std::span<const Kernel> kernels) const;
+  Field without_hollows(Field field, const Report& prepared) const;
 
   const LeafSet& leaves_;
   Device& device_;

@@ -69,6 +69,7 @@ Options options_of(const StudyRow& row, const Reading& reading, int resolution) 
   options.radius_max = row.radius_max;
   options.flatness = row.flatness;
   options.min_component = 0;
+  options.hollows = Hollows::keep;
   options.falloff = reading.falloff;
   options.spread = reading.spread;
   options.density = reading.density;

@@ -69,6 +69,7 @@ class ForestUsage(CommandTest):
     def test_options_that_tiles_cannot_have(self):
         self.refuse(["--mesher", "not for forests", "cracks"], "--mesher", "vdb")
         self.refuse(["--adaptivity", "not for forests", "cracks"], "--adaptivity", "0.5")
+        self.refuse(["--hollows fill", "--merge none"], "--hollows", "fill")
         page = self.succeed("forest", "--help").stdout
         self.assertNotIn("--mesher", page)
         self.assertNotIn("--adaptivity", page)

@@ -5,7 +5,7 @@ from command import CommandTest
 
 FLAGS = """--leaves --ellipse --leaf-scale --style --method --threshold --coverage --radius-max
 --radius-unit --flatness --falloff --spread --density --band-low --band-high --min-component
---preset --resolution --voxel-size --dense --no-snap --mesher --adaptivity --output
+--hollows --preset --resolution --voxel-size --dense --no-snap --mesher --adaptivity --output
 --save-kernels --save-field --report --device --variant --threads --quiet --verbose --help --version""".split()
 
 

@@ -83,6 +83,7 @@ TEST(Series, SaysOfEachEntryWhatAnExtractionSays) {
   add([](Options& o) { o.falloff = 1; });
   add([](Options& o) { o.spread = Spread::variance; });
   add([](Options& o) { o.min_component = 0.1; });
+  add([](Options& o) { o.hollows = Hollows::fill; });
   add([](Options& o) { o.preset = Preset::paper_32; });
   add([](Options& o) { o.threshold.reset(), o.coverage = 0.8; });
   add([](Options& o) { o.threshold.reset(), o.threshold_percent = 60; });

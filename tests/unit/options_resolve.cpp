@@ -78,6 +78,12 @@ TEST(Styles, ThePapersFiguresHaveTheirValues) {
   EXPECT_TRUE(spheres.flatness.has_value());
 }
 
+TEST(Styles, KeepHollows) {
+  for (std::size_t i = 0; i < names(Style{}).size(); ++i) {
+    EXPECT_EQ(styled(Style(i)).hollows, Hollows::keep) << names(Style{})[i];
+  }
+}
+
 TEST(Styles, WhatIsGivenWins) {
   Options options;
   options.style = Style::luft_deussen;
@@ -85,11 +91,13 @@ TEST(Styles, WhatIsGivenWins) {
   options.radius_max = 3;
   options.flatness = 0.5;
   options.min_component = 0.25;
+  options.hollows = Hollows::fill;
   const Options resolved = resolve(options);
   EXPECT_EQ(resolved.method, Method::uncontrolled);
   EXPECT_EQ(resolved.radius_max, 3);
   EXPECT_EQ(resolved.flatness, 0.5);
   EXPECT_EQ(resolved.min_component, 0.25);
+  EXPECT_EQ(resolved.hollows, Hollows::fill);
   EXPECT_EQ(resolved.threshold, 1.5) << "the style sets what is left";
 }
 

@@ -24,7 +24,7 @@ TEST(OptionTable, HasEveryOptionOnce) {
       "threshold", "coverage",      "radius-max", "radius-unit", "threshold-percent",
       "flatness",  "falloff",       "spread",     "density",     "band-low",
       "band-high", "min-component", "preset",     "resolution",  "voxel-size",
-      "dense",     "snap",          "mesher",     "adaptivity"};
+      "dense",     "snap",          "mesher",     "adaptivity",  "hollows"};
   std::set<std::string_view> found;
   for (const OptionRow& row : option_table()) {
     EXPECT_TRUE(found.insert(row.name).second) << row.name << " stands twice";
@@ -66,6 +66,7 @@ TEST(OptionTable, RangesOfEnumerationsAreTheirNames) {
   EXPECT_EQ(row("radius-unit").range, "crown, leaf, model");
   EXPECT_EQ(row("spread").range, "stddev, variance");
   EXPECT_EQ(row("density").range, "exact, grid");
+  EXPECT_EQ(row("hollows").range, "fill, keep");
   EXPECT_EQ(row("preset").range,
             "paper-32, paper-64, paper-128, draft, standard, fine, ultra, film");
 }
@@ -92,6 +93,8 @@ TEST(Names, FollowTheEnumerations) {
   EXPECT_EQ(name(DensitySource::grid), "grid");
   EXPECT_EQ(name(Preset::paper_128), "paper-128");
   EXPECT_EQ(name(Preset::film), "film");
+  EXPECT_EQ(name(Hollows::fill), "fill");
+  EXPECT_EQ(name(Hollows::keep), "keep");
 }
 
 }  // namespace

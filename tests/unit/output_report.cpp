@@ -31,7 +31,7 @@ TEST(Report, HasTheKeysOfTheSpecification) {
   for (const char* key :
        {"style", "method", "threshold", "threshold_percent", "coverage", "radius_max",
         "radius_unit", "radius_max_model", "flatness", "falloff", "spread", "density", "band_low",
-        "band_high", "leaf_scale", "min_component", "resolution", "voxel_size"}) {
+        "band_high", "leaf_scale", "min_component", "hollows", "resolution", "voxel_size"}) {
     EXPECT_TRUE(report["parameters"].contains(key)) << key;
   }
 }

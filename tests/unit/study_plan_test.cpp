@@ -56,6 +56,7 @@ TEST(StudyPlan, ARowAsksForItselfAlone) {
   EXPECT_EQ(options.radius_unit, RadiusUnit::crown);
   EXPECT_EQ(options.flatness, 0.6);
   EXPECT_EQ(options.min_component, 0) << "the paper keeps what is small";
+  EXPECT_EQ(options.hollows, Hollows::keep) << "and what is hollow";
   EXPECT_EQ(options.resolution, 32);
   EXPECT_EQ(options.falloff, 1);
   EXPECT_EQ(options.spread, Spread::variance);
