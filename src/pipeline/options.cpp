@@ -34,6 +34,7 @@ struct StyleValues {
   PointSource points;
   double point_spacing;
   double min_component;
+  Hollows hollows;
 };
 
 // Luft and Deussen's spheres are not flattened: 1 keeps them round under another method, too.
