@@ -98,8 +98,9 @@ Kernel controlled_kernel(const LeafPoint& leaf, float density, const DensityStat
                    resolved.falloff);
 }
 
-double clear_of_sheets(std::vector<WeightedDensity>& densities, double threshold) {
-  constexpr double kFilm = 1.2, kMost = 0.5, kBelowSheet = 0.6;
+double clear_of_sheets(std::vector<WeightedDensity>& densities, double threshold, double coverage) {
+  constexpr double kFilm = 1.2, kMost = 0.5, kBelowSheet = 0.6, kNearlyAll = 0.98;
+  if (coverage >= kNearlyAll) threshold = std::min(threshold, kBelowSheet);
   std::ranges::sort(densities, {}, &WeightedDensity::density);
   std::uint64_t above = 0, film = 0;
   for (const WeightedDensity& d : densities) {

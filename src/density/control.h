@@ -48,10 +48,12 @@ struct WeightedDensity {
   std::uint64_t weight = 1;
 };
 
-/// `threshold`, or where most of the leaf area above it is above it by less than a fifth, 0.6 of
-/// what that area has in the middle. A closed crown is one sheet on which N is 1 all over: at a T
-/// next to that its surface would be a film with holes. `densities` come back sorted.
-double clear_of_sheets(std::vector<WeightedDensity>& densities, double threshold);
+/// T for a coverage of leaf area, `threshold` being its quantile, such that sheets of leaf are not
+/// torn. N is 1 on a sheet that lies alone, and at a T next to that the surface would be a film
+/// with holes. So where most of the area above T is above it by less than a fifth, as on closed
+/// crowns, T is 0.6 of what that area has in the middle; and where nearly all leaves are asked for,
+/// 0.98 or more, T is at most 0.6. `densities` come back sorted.
+double clear_of_sheets(std::vector<WeightedDensity>& densities, double threshold, double coverage);
 
 /// T such that the fraction `coverage` of the densities is at least T: halfway between the two
 /// neighbours in rank, so that rounding does not move a leaf vertex across.

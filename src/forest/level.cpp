@@ -133,7 +133,9 @@ double threshold_of(const ForestLevel& level, std::span<const ModelUse> uses,
       for (const float n : model.density) densities.push_back({n, weight});
     }
     const double threshold = threshold_for_coverage(densities, *options.coverage);
-    return options.points == PointSource::area ? clear_of_sheets(densities, threshold) : threshold;
+    return options.points == PointSource::area
+               ? clear_of_sheets(densities, threshold, *options.coverage)
+               : threshold;
   }
   const double mean = weighted_mean(level.models, uses);
   if (options.threshold_percent) return *options.threshold_percent / 100 * mean;

@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
+#include "density/control.h"
 #include "forest/tile.h"
 #include "leafhull/forest.h"
-#include "density/control.h"
 #include "leafhull/leaves.h"
 #include "leafhull/shape.h"
 #include "pipeline/stopwatch.h"

@@ -34,18 +34,29 @@ struct StyleValues {
   PointSource points;
   double point_spacing;
   double min_component;
-  Hollows hollows;
 };
 
 // Luft and Deussen's spheres are not flattened: 1 keeps them round under another method, too.
-constexpr StyleValues kStyles[] = {
-    {Method::controlled, 2.5, {}, 0.92, 0.8, PointSource::area, 0.4, 0.001},
-    {Method::controlled, 1.2, {}, 0.80, 0.7, PointSource::area, 0.3, 0.001},
-    {Method::controlled, 3.5, {}, 0.98, 1.0, PointSource::area, 0.4, 0.001},
-    {Method::isotropic, 2.5, {}, 0.95, 1.0, PointSource::area, 0.4, 0.001},
+constexpr StyleValues kPaperStyles[] = {
     {Method::controlled, 1.4, 2.0, {}, 0.7, PointSource::vertices, 0.4, 0},
     {Method::controlled, 1.6, 2.0, {}, 1.0, PointSource::vertices, 0.4, 0},
     {Method::isotropic, 1.5, 1.5, {}, 1.0, PointSource::vertices, 0.4, 0},
+};
+constexpr StyleValues kStyles[] = {
+    {Method::controlled, 3.0, {}, 0.98, 0.8, PointSource::area, 0.4, 0.001},
+    {Method::controlled, 1.4, {}, 0.85, 0.7, PointSource::area, 0.4, 0.001},
+    {Method::controlled, 4.5, {}, 0.99, 1.0, PointSource::area, 0.4, 0.001},
+    {Method::isotropic, 2.5, {}, 0.95, 1.0, PointSource::area, 0.4, 0.001},
+    kPaperStyles[0],
+    kPaperStyles[1],
+    kPaperStyles[2],
+};
+/// The first styles with kernels at vertices, as they were before there were others.
+constexpr StyleValues kStylesAtVertices[] = {
+    {Method::controlled, 2.5, {}, 0.92, 0.8, PointSource::vertices, 0.4, 0.001},
+    kPaperStyles[0],
+    kPaperStyles[1],
+    kPaperStyles[2],
 };
 static_assert(std::size(kStyles) == std::size(kStyleNames));
 
@@ -131,6 +142,13 @@ void check_contradictions(const Options& options) {
   }
 }
 
+const StyleValues& values_of(const Options& options) {
+  const auto style = static_cast<std::size_t>(options.style);
+  return options.points == PointSource::vertices && style < std::size(kStylesAtVertices)
+             ? kStylesAtVertices[style]
+             : kStyles[style];
+}
+
 }  // namespace
 
 std::span<const std::string_view> names(Style) { return kStyleNames; }
@@ -163,7 +181,7 @@ Options resolve(Options options) {
   }
   check_contradictions(options);
 
-  const StyleValues& style = kStyles[static_cast<std::size_t>(options.style)];
+  const StyleValues& style = values_of(options);
   if (!options.method) options.method = style.method;
   if (!options.radius_max) options.radius_max = style.radius_max;
   if (!options.flatness) options.flatness = style.flatness;

@@ -63,7 +63,7 @@ double threshold_for(const Options& options, std::span<const float> density) {
   std::vector<WeightedDensity> all;
   all.reserve(density.size());
   for (const float n : density) all.push_back({n});
-  return clear_of_sheets(all, threshold);
+  return clear_of_sheets(all, threshold, *options.coverage);
 }
 
 double threshold_of(const Options& options, const DensityStatistics& statistics,
@@ -104,10 +104,11 @@ void warn_of_points(const LeafSet& leaves, const Options& options, std::span<con
     return;
   }
   if (options.points == PointSource::area) {
-    std::snprintf(text, sizeof text,
-                  "a coverage of %.3g cannot be had: most leaves are sheets of one density; T = %.3g, "
-                  "well below it, takes in %.0f%% of the leaf area",
-                  *options.coverage, report.threshold, 100 * report.covered);
+    std::snprintf(
+        text, sizeof text,
+        "a coverage of %.3g cannot be had: most leaves are sheets of one density; T = %.3g, "
+        "well below it, takes in %.0f%% of the leaf area",
+        *options.coverage, report.threshold, 100 * report.covered);
   } else {
     std::snprintf(text, sizeof text,
                   "a coverage of %.3g cannot be had: many leaf vertices have the density %.4g, and "
