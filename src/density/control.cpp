@@ -11,6 +11,10 @@ namespace {
 /// A radius is never below this share of R_max. SPEC: 1.
 constexpr double kSmallestRadius = 1e-3;
 
+/// Of the mean: leaf area whose N_iso deviates by less is even, and what deviates is the ripple of
+/// its parts, which control must not enlarge.
+constexpr double kLeastSpread = 0.15;
+
 Kernel kernel_at(const LeafPoint& leaf, Vec3d radii, int falloff) {
   // A kernel's integral over its own plane is pi R_u R_v / (k + 1).
   const double weight =
@@ -45,7 +49,8 @@ DensityStatistics density_statistics(std::span<const LeafPoint> leaves,
 }
 
 DensityStatistics band(double mean, double variance, const Options& resolved) {
-  const double spread = resolved.spread == Spread::stddev ? std::sqrt(variance) : variance;
+  double spread = resolved.spread == Spread::stddev ? std::sqrt(variance) : variance;
+  if (resolved.points == PointSource::area) spread = std::max(spread, kLeastSpread * mean);
   return {.mean = mean,
           .variance = variance,
           .p1 = mean + resolved.band_low * spread,
