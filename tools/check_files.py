@@ -1,8 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Checks what holds for every file: its length, its license line, its white space; and that each
-package named by cmake/dependencies.cmake is in packages.txt, where ./dev looks."""
+package named by cmake/dependencies.cmake is in packages.txt, where ./dev looks; and that Debian's
+node runs every package of npm, as a machine with a newer one would not show."""
 
+import json
 import pathlib
 import re
 import sys
@@ -12,6 +14,7 @@ FOLDERS = (".ci", "bench", "cmake", "examples", "include", "kernels", "src", "te
 SOURCES = {".h", ".cpp", ".cl", ".clh", ".py", ".sh", ".js", ".mjs"}
 TEXTS = SOURCES | {".cmake", ".css", ".html", ".in", ".json", ".md", ".supp", ".txt", ".yml"}
 LINES_MAX = 600
+NODE = (18, 20, 4)  # Debian 12's
 
 
 def files():
@@ -52,9 +55,34 @@ def unlisted_packages():
             yield f"packages.txt: {package} is missing, which cmake/dependencies.cmake names"
 
 
+def admits(versions, node):
+    """Whether `versions`, as in the field engines of a package of npm, has room for `node`."""
+
+    def holds(sign, digits):
+        wanted = tuple(int(part) for part in digits.split(".") if part.isdigit())
+        if sign == ">=":
+            return node >= wanted
+        if sign == "^":
+            return node >= wanted and node[0] == wanted[0]
+        return node[: len(wanted)] == wanted
+
+    return any(
+        all(holds(*bound) for bound in re.findall(r"(>=|\^|)\s*([\d.*]+)", bounds))
+        for bounds in versions.split("||")
+    )
+
+
+def packages_for_newer_node():
+    for lock in ("tests/package-lock.json", "web/package-lock.json"):
+        for name, package in json.loads((ROOT / lock).read_text())["packages"].items():
+            versions = package.get("engines", {}).get("node", "*")
+            if not admits(versions, NODE):
+                yield f"{lock}: {name} wants node {versions}, Debian 12 has {NODE}"
+
+
 def main():
     faults = [fault for file in sorted(files()) for fault in faults_of(file)]
-    faults += unlisted_packages()
+    faults += [*unlisted_packages(), *packages_for_newer_node()]
     print("\n".join(faults), end="\n" if faults else "")
     return bool(faults)
 

@@ -86,22 +86,23 @@ class Instances(ForestTest):
             self.assertEqual(count, [len(shape.vertices), 3 * len(shape.triangles)])
 
     def test_the_validator_finds_no_fault(self):
-        packages = pathlib.Path(os.environ.get("VALIDATOR", ""))
         scene = self.stand("ash.glb,0,0,0,0,1", "oak.glb,1e6,0,0,90,2", "elm.glb,3,4,5,200,0.5")
         self.forest(scene, "apart", "--merge", "none", *COARSE)
         self.forest(scene, "tiles", "--tile", "32", *COARSE, "--single", self.out / "all.glb")
         files = [self.out / "apart" / "forest.glb", self.out / "all.glb",
                  *(self.out / "tiles").rglob("*.glb")]  # fmt: skip
         script = pathlib.Path(__file__).parent / "validate_glb.mjs"
-        try:
-            result = subprocess.run(
-                ["node", script, packages, *files], capture_output=True, text=True, timeout=100
-            )
-        except FileNotFoundError:
-            self.skipTest("there is no node")
-        if result.returncode == 77:
-            self.skipTest(result.stderr)
-        self.assertEqual(result.returncode, 0, result.stdout)
+        node, packages = (os.environ.get(name, "") for name in ("NODE", "PACKAGES"))
+        lacking = "there is no node"
+        if node:
+            command = [node, script, packages, *files]
+            result = subprocess.run(command, capture_output=True, text=True, timeout=100)
+            if result.returncode != 77:
+                self.assertEqual(result.returncode, 0, result.stdout)
+                return
+            lacking = result.stderr.strip()
+        print(f"SKIPPED: a forest before the Khronos validator: {lacking}")
+        self.skipTest(lacking)
 
     def test_models_without_a_surface_are_warned_about(self):
         scene = self.stand("ash.glb,0,0,0", "oak.glb,9,0,0")

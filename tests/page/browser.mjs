@@ -3,8 +3,8 @@
 import { createRequire } from 'node:module';
 import { pathToFileURL } from 'node:url';
 
-const { CHROMIUM, REPORT, WEB } = process.env;
-const { chromium } = createRequire(`${WEB}/`)('playwright-core');
+const { CHROMIUM, PACKAGES, REPORT } = process.env;
+const { chromium } = createRequire(`${PACKAGES}/`)('playwright-core');
 
 const FLAGS = [
   '--headless', '--no-sandbox', '--disable-quic', '--no-first-run',

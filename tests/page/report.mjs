@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// A real report in a real browser: node report.mjs, with CHROMIUM, REPORT and WEB (the folder whose
-// node_modules hold playwright-core) in the environment. Exits with 77 where there is no browser.
+// A real report in a real browser: node report.mjs, with in the environment
+//   REPORT
+//   CHROMIUM
+//   PACKAGES  the folder whose node_modules hold playwright-core
+//   WEB       the folder whose node_modules went into the report
+// Exits with 77 where Chromium or packages are missing.
 import assert from 'node:assert/strict';
-import { existsSync } from 'node:fs';
 import test, { after, before } from 'node:test';
 
-if (!existsSync(process.env.CHROMIUM ?? '')) {
-  console.log(`SKIPPED: no Chromium at '${process.env.CHROMIUM}'; apt-get install chromium`);
-  process.exit(77);
-}
+import { needChromium, needPackages } from '../needed.mjs';
+
+needChromium(process.env.CHROMIUM);
+needPackages(process.env.WEB, 'build the target all');
+needPackages(process.env.PACKAGES, 'build the target test_packages');
 const { covered, difference, faint, launch, open, openView, overflow, pictures } =
   await import('./browser.mjs');
 

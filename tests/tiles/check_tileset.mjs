@@ -2,12 +2,10 @@
 // A tileset as Cesium's 3d-tiles-tools and the Khronos glTF validator read it: node
 // check_tileset.mjs, with in the environment
 //   TILESET    the folder of tileset.json
-//   PACKAGES   the folder whose node_modules hold 3d-tiles-tools
-//   VALIDATOR  the folder whose node_modules hold gltf-validator
-// Exits with 77 where one of them is missing.
+//   PACKAGES   the folder whose node_modules hold both
+// Exits with 77 where they are missing.
 import assert from 'node:assert/strict';
 import { execFile } from 'node:child_process';
-import { existsSync } from 'node:fs';
 import { mkdtemp, readFile, readdir, rm } from 'node:fs/promises';
 import { createRequire } from 'node:module';
 import { tmpdir } from 'node:os';
@@ -16,19 +14,14 @@ import { execPath } from 'node:process';
 import test from 'node:test';
 import { promisify } from 'node:util';
 
-const { PACKAGES, TILESET, VALIDATOR } = process.env;
-for (const [folder, name, target] of [
-  [PACKAGES, '3d-tiles-tools', 'tiles_packages'], [VALIDATOR, 'gltf-validator', 'gltf_validator'],
-]) {
-  if (!existsSync(`${folder}/node_modules/${name}`)) {
-    console.log(`SKIPPED: no ${name} in '${folder}'; build the target ${target}`);
-    process.exit(77);
-  }
-}
+import { needPackages } from '../needed.mjs';
+
+const { PACKAGES, TILESET } = process.env;
+needPackages(PACKAGES, 'build the target test_packages');
 const requirePackage = createRequire(`${resolve(PACKAGES)}/`);
 const { BoundingVolumesContainment, TilesetSourceResourceResolver, TilesetSources, TilesetTraverser,
   VertexProcessing } = requirePackage('3d-tiles-tools');
-const validator = createRequire(`${resolve(VALIDATOR)}/`)('gltf-validator');
+const validator = requirePackage('gltf-validator');
 
 const EPSILON = 1e-9;  // of a half axis: the tools invert the box
 

@@ -4,27 +4,21 @@
 //   TILESET   the folder of tileset.json
 //   LEVELS    how many levels of abstraction it has
 //   CHROMIUM
-//   WEB       the folder whose node_modules hold esbuild and playwright-core
-//   PACKAGES  the folder whose node_modules hold 3d-tiles-renderer and three.js
+//   WEB       the folder whose node_modules hold esbuild
+//   PACKAGES  the folder whose node_modules hold playwright-core, 3d-tiles-renderer and three.js
 //   PICTURES  where far.png, middle.png and near.png go
-// Exits with 77 where there is no browser or no renderer.
+// Exits with 77 where Chromium or packages are missing.
 import assert from 'node:assert/strict';
-import { existsSync } from 'node:fs';
 import { mkdir, readFile } from 'node:fs/promises';
 import { join } from 'node:path';
 import test, { after, before } from 'node:test';
 
-const { CHROMIUM = '', LEVELS, PACKAGES, PICTURES, TILESET, WEB } = process.env;
-for (const [what, path, remedy] of [
-  ['esbuild', `${WEB}/node_modules/esbuild`, 'build with LEAFHULL_BUILD_VIEWER'],
-  ['Chromium', CHROMIUM, 'apt-get install chromium'],
-  ['3d-tiles-renderer', `${PACKAGES}/node_modules/3d-tiles-renderer`, 'build the target tiles_packages'],
-]) {
-  if (!existsSync(path)) {
-    console.log(`SKIPPED: no ${what} at '${path}'; ${remedy}`);
-    process.exit(77);
-  }
-}
+import { needChromium, needPackages } from '../needed.mjs';
+
+const { CHROMIUM, LEVELS, PACKAGES, PICTURES, TILESET, WEB } = process.env;
+needChromium(CHROMIUM);
+needPackages(WEB, 'build with LEAFHULL_BUILD_VIEWER');
+needPackages(PACKAGES, 'build the target test_packages');
 const { launch } = await import('../page/browser.mjs');
 const { serve } = await import('./server.mjs');
 

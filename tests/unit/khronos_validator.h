@@ -23,7 +23,7 @@ inline void expect_valid_gltf(const std::vector<std::filesystem::path>& files,
   const std::string said = read_file(log);
   if (WEXITSTATUS(status) == 77 || WEXITSTATUS(status) == 127) {
     GTEST_SKIP() << "NOT CHECKED against the Khronos validator; to have it: "
-                    "cmake --build BUILD --target gltf_validator (needs Node.js and npm)\n"
+                    "cmake --build BUILD --target test_packages (needs Node.js and npm)\n"
                  << said;
   }
   EXPECT_EQ(WEXITSTATUS(status), 0) << said;
