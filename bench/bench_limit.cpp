@@ -117,7 +117,8 @@ Json stages_of(const Case& c, Method method, Device& device, double peak) {
   const Options options = options_of(c, method);
   const std::map<std::string, double> seconds = seconds_by_stage(leaves, options, device);
   const Shape shape = extract(leaves, options, device);
-  const std::vector<Kernel> isotropic = isotropic_kernels(vertex_points(leaves).points, c.radius, options.falloff);
+  const std::vector<Kernel> isotropic =
+      isotropic_kernels(vertex_points(leaves).points, c.radius, options.falloff);
   const std::map<std::string, Pairs> pairs = {
       {"isotropic density",
        {pairs_inside(isotropic, leaves.vertices),

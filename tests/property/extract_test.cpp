@@ -43,6 +43,7 @@ LeafVertex leaf_at(Vec3d position, float major = 1, float minor = 1) {
 
 Options isotropic(double radius, double threshold, double voxel_size) {
   Options options;
+  options.points = PointSource::vertices;
   options.method = Method::isotropic;
   options.radius_unit = RadiusUnit::model;
   options.radius_max = radius;
@@ -172,7 +173,7 @@ TEST(Threshold, RaisingItNeverAddsVoxels) {
   Metrics before;
   before.inside_voxels = before.on_voxels = ~std::uint64_t{0} / 2;
   for (const double t : {0.5, 1.0, 2.0, 4.0, 6.0}) {
-    Options options = of_style(Style::thin);
+    Options options = of_style(Style::paper_thin);
     options.threshold = t;
     const Metrics m = extract(ash(), options, device()).report.metrics;
     EXPECT_LE(m.inside_voxels, before.inside_voxels);
@@ -245,7 +246,8 @@ TEST(Leaves, OrderAndSplittingOfVerticesChangeNothing) {
 }
 
 TEST(Dense, EqualsTheAdaptiveBandForEveryStyle) {
-  for (const Style style : {Style::painterly, Style::thin, Style::fat, Style::luft_deussen}) {
+  for (const Style style :
+       {Style::painterly, Style::paper_thin, Style::paper_fat, Style::paper_previous}) {
     for (const double adaptivity : {0.0, 0.5}) {
       Options options = of_style(style, Preset::standard);
       options.adaptivity = adaptivity;

@@ -72,6 +72,7 @@ Device& device() {
 
 Options options(std::optional<double> radius_max = {}) {
   Options o;
+  o.points = PointSource::vertices;  // the crowns below have nothing else
   o.voxel_size = 0.2;
   o.radius_max = radius_max;
   return resolve(o);

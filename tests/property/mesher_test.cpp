@@ -51,7 +51,8 @@ void expect_agreement(const std::filesystem::path& tree) {
   if (!std::filesystem::exists(tree)) GTEST_SKIP() << "SKIPPED: no " << tree;
   Device device({});
   const LeafSet leaves = find_leaves(read_tree(tree.string()), {});
-  for (const Style style : {Style::painterly, Style::thin, Style::fat, Style::luft_deussen}) {
+  for (const Style style :
+       {Style::painterly, Style::paper_thin, Style::paper_fat, Style::paper_previous}) {
     for (const bool snap : {false, true}) {
       Options options;
       options.style = style;

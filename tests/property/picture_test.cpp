@@ -112,8 +112,8 @@ void expect_direct_as_mesh(const std::filesystem::path& file, Style style) {
 class DirectPicture : public testing::TestWithParam<Style> {};
 
 INSTANTIATE_TEST_SUITE_P(Styles, DirectPicture,
-                         testing::Values(Style::painterly, Style::thin, Style::fat,
-                                         Style::luft_deussen),
+                         testing::Values(Style::painterly, Style::paper_thin, Style::paper_fat,
+                                         Style::paper_previous),
                          [](const auto& test) {
                            std::string text(name(test.param));
                            std::replace(text.begin(), text.end(), '-', '_');

@@ -25,7 +25,7 @@ const LeafSet& ash() {
 
 Options thin(double threshold) {
   Options options;
-  options.style = Style::thin;
+  options.style = Style::paper_thin;
   options.preset = Preset::draft;
   options.threshold = threshold;
   return options;

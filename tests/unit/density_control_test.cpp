@@ -3,14 +3,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "density/control.h"
 
 namespace leafhull {
 namespace {
 
-LeafVertex leaf(float major, float minor) {
-  return {{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, major, minor, 0};
+/// At a vertex, or with an area.
+LeafPoint leaf(float major, float minor, double area = 0) {
+  return {{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, major, minor, area};
 }
 
 Options controlled(double flatness) {
@@ -21,9 +23,10 @@ Options controlled(double flatness) {
 }
 
 TEST(Control, StatisticsOfEquations9And10) {
+  const std::vector<LeafPoint> leaves(4, leaf(1, 1));
   const std::vector<float> density{1, 2, 3, 6};
   Options options;
-  const DensityStatistics s = density_statistics(density, options);
+  const DensityStatistics s = density_statistics(leaves, density, options);
   EXPECT_DOUBLE_EQ(s.mean, 3);
   EXPECT_DOUBLE_EQ(s.variance, 3.5);
   EXPECT_DOUBLE_EQ(s.p1, 3);
@@ -31,7 +34,7 @@ TEST(Control, StatisticsOfEquations9And10) {
 
   options.spread = Spread::variance;
   options.band_low = -1;
-  const DensityStatistics v = density_statistics(density, options);
+  const DensityStatistics v = density_statistics(leaves, density, options);
   EXPECT_DOUBLE_EQ(v.p1, 3 - 3.5);
   EXPECT_DOUBLE_EQ(v.p2, 3 + 2 * 3.5);
 }
@@ -53,7 +56,7 @@ TEST(Control, WhereP1IsP2MoreIsDense) {
 
 TEST(Control, RadiiOfEquations7And8) {
   const DensityStatistics s{.mean = 0, .variance = 0, .p1 = 2, .p2 = 4};
-  const std::vector<LeafVertex> leaves(3, leaf(1.0f, 0.5f));
+  const std::vector<LeafPoint> leaves(3, leaf(1.0f, 0.5f));
   const std::vector<float> density{2, 3, 4};
   const auto k = controlled_kernels(leaves, density, s, 2.0, controlled(0.8));
   ASSERT_EQ(k.size(), 3u);
@@ -69,7 +72,7 @@ TEST(Control, RadiiOfEquations7And8) {
 
 TEST(Control, MethodsDifferInTheirRadiiAlone) {
   const DensityStatistics s{.mean = 0, .variance = 0, .p1 = 2, .p2 = 4};
-  const std::vector<LeafVertex> leaves(1, leaf(1.0f, 0.5f));
+  const std::vector<LeafPoint> leaves(1, leaf(1.0f, 0.5f));
   const std::vector<float> density{2};
   Options options = controlled(1.0);
   options.method = Method::uncontrolled;
@@ -80,10 +83,61 @@ TEST(Control, MethodsDifferInTheirRadiiAlone) {
 
 TEST(Control, RadiusHasAFloor) {
   const DensityStatistics s{.mean = 0, .variance = 0, .p1 = 2, .p2 = 4};
-  const std::vector<LeafVertex> leaves(1, leaf(1.0f, 1e-9f));
+  const std::vector<LeafPoint> leaves(1, leaf(1.0f, 1e-9f));
   const auto k = controlled_kernels(leaves, std::vector<float>{5}, s, 2.0, controlled(0.5));
   EXPECT_FLOAT_EQ(k[0].radius_minor, 2e-3f);
   EXPECT_FLOAT_EQ(k[0].radius_normal, 2e-3f);
+}
+
+TEST(Control, NoRadiusExceedsTheLargest) {
+  const DensityStatistics s{.mean = 0, .variance = 0, .p1 = 2, .p2 = 4};
+  const std::vector<LeafPoint> leaves(1, leaf(9.0f, 5.0f));
+  for (const float density : {1.0f, 3.0f, 5.0f}) {
+    const auto k = controlled_kernels(leaves, std::vector<float>{density}, s, 2.0, controlled(0.8));
+    EXPECT_FLOAT_EQ(k[0].radius_major, 2);
+    EXPECT_FLOAT_EQ(k[0].radius_minor, 2);
+    EXPECT_FLOAT_EQ(k[0].radius_normal, 2);
+  }
+}
+
+TEST(Control, KernelsOfLeafAreaIntegrateToItOverTheirPlane) {
+  const DensityStatistics s{.mean = 0, .variance = 0, .p1 = 2, .p2 = 4};
+  const std::vector<LeafPoint> leaves{leaf(1.0f, 0.5f, 0.7)};
+  for (const int falloff : {1, 2, 3}) {
+    Options options = controlled(0.8);
+    options.falloff = falloff;
+    for (const Kernel& k : {controlled_kernels(leaves, std::vector<float>{4}, s, 2.0, options)[0],
+                            isotropic_kernels(leaves, 2.0, falloff)[0]}) {
+      const double integral =
+          k.weight * std::numbers::pi * k.radius_major * k.radius_minor / (falloff + 1);
+      EXPECT_NEAR(integral, 0.7, 1e-6);
+    }
+  }
+  EXPECT_EQ(isotropic_kernels(std::vector{leaf(1, 1)}, 2.0, 2)[0].weight, 1) << "at a vertex";
+}
+
+TEST(Control, LeafPointsCountByTheirArea) {
+  const std::vector<LeafPoint> leaves{leaf(1, 1, 3), leaf(1, 1, 1)};
+  Options options;
+  options.points = PointSource::area;
+  const DensityStatistics s = density_statistics(leaves, std::vector<float>{1, 5}, options);
+  EXPECT_DOUBLE_EQ(s.mean, 2);
+  EXPECT_DOUBLE_EQ(s.variance, 3);
+  // A ripple is no spread.
+  const DensityStatistics even =
+      density_statistics(leaves, std::vector<float>{1.01f, 0.97f}, options);
+  EXPECT_NEAR(even.p2, 1.3 * even.mean, 1e-9);
+}
+
+TEST(Control, CoverageKeepsClearOfSheets) {
+  std::vector<WeightedDensity> closed;  // one sheet, N = 1 but for its ripple
+  for (int i = 0; i < 100; ++i) closed.push_back({0.98f + 0.0004f * static_cast<float>(i)});
+  EXPECT_NEAR(clear_of_sheets(closed, 0.985, 0.92), 0.6, 0.01);
+  std::vector<WeightedDensity> wide;
+  for (int i = 0; i < 100; ++i) wide.push_back({0.05f * static_cast<float>(i)});
+  EXPECT_EQ(clear_of_sheets(wide, 0.4, 0.92), 0.4);
+  EXPECT_EQ(clear_of_sheets(wide, 2.5, 0.5), 2.5);
+  EXPECT_EQ(clear_of_sheets(wide, 0.9, 0.98), 0.6) << "a lone sheet is inside";
 }
 
 TEST(Control, CoverageIsTheShareAtOrAboveT) {

@@ -83,10 +83,10 @@ TEST(ForestReport, HasARowForEachTile) {
 
 TEST(ForestReport, SaysWithWhichOptions) {
   ForestOptions options;
-  options.shape.style = Style::thin;
+  options.shape.style = Style::paper_thin;
   options.shape.voxel_size = 0.25;
   const Json plain = report_of({}, options)["options"];
-  EXPECT_EQ(plain["style"], "thin");
+  EXPECT_EQ(plain["style"], "paper-thin");
   EXPECT_EQ(plain["threshold"], 2.0) << "what the style sets is said too";
   EXPECT_EQ(plain["voxel_size"], 0.25);
   EXPECT_EQ(plain["merge"], "canopy");

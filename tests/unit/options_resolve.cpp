@@ -47,15 +47,31 @@ TEST(Styles, PainterlyIsTheDefaultAndHasItsValues) {
   const Options options = resolve({});
   EXPECT_EQ(options.style, Style::painterly);
   EXPECT_EQ(options.method, Method::controlled);
-  EXPECT_EQ(options.radius_max, 2.5);
-  EXPECT_EQ(options.coverage, 0.92);
+  EXPECT_EQ(options.radius_max, 3);
+  EXPECT_EQ(options.coverage, 0.98);
+  EXPECT_EQ(options.points, PointSource::area);
+  EXPECT_EQ(options.point_spacing, 0.33);
   EXPECT_FALSE(options.threshold || options.threshold_percent);
   EXPECT_EQ(options.flatness, 0.8);
   EXPECT_EQ(options.min_component, 0.001);
 }
 
+TEST(Styles, AtVerticesAreAsTheyWereBeforeLeafArea) {
+  Options options;
+  options.points = PointSource::vertices;
+  EXPECT_EQ(resolve(options).radius_max, 2.5);
+  EXPECT_EQ(resolve(options).coverage, 0.92);
+  EXPECT_EQ(resolve(options).hollows, Hollows::keep);
+  options.style = Style::thin;
+  EXPECT_EQ(resolve(options).radius_max, 1.4);
+  EXPECT_EQ(resolve(options).threshold, 2.0);
+  options.style = Style::previous;
+  EXPECT_EQ(resolve(options).method, Method::isotropic);
+  EXPECT_EQ(resolve(options).threshold, 1.5);
+}
+
 TEST(Styles, ThePapersFiguresHaveTheirValues) {
-  const Options thin = styled(Style::thin);
+  const Options thin = styled(Style::paper_thin);
   EXPECT_EQ(thin.method, Method::controlled);
   EXPECT_EQ(thin.radius_max, 1.4);
   EXPECT_EQ(thin.threshold, 2.0);
@@ -63,14 +79,14 @@ TEST(Styles, ThePapersFiguresHaveTheirValues) {
   EXPECT_EQ(thin.min_component, 0);
   EXPECT_FALSE(thin.coverage || thin.threshold_percent);
 
-  const Options fat = styled(Style::fat);
+  const Options fat = styled(Style::paper_fat);
   EXPECT_EQ(fat.method, Method::controlled);
   EXPECT_EQ(fat.radius_max, 1.6);
   EXPECT_EQ(fat.threshold, 2.0);
   EXPECT_EQ(fat.flatness, 1.0);
   EXPECT_EQ(fat.min_component, 0);
 
-  const Options spheres = styled(Style::luft_deussen);
+  const Options spheres = styled(Style::paper_previous);
   EXPECT_EQ(spheres.method, Method::isotropic);
   EXPECT_EQ(spheres.radius_max, 1.5);
   EXPECT_EQ(spheres.threshold, 1.5);
@@ -78,15 +94,17 @@ TEST(Styles, ThePapersFiguresHaveTheirValues) {
   EXPECT_TRUE(spheres.flatness.has_value());
 }
 
-TEST(Styles, KeepHollows) {
+TEST(Styles, OfLeafAreaFillHollows) {
   for (std::size_t i = 0; i < names(Style{}).size(); ++i) {
-    EXPECT_EQ(styled(Style(i)).hollows, Hollows::keep) << names(Style{})[i];
+    const Options options = styled(Style(i));
+    EXPECT_EQ(options.hollows == Hollows::fill, options.points == PointSource::area)
+        << names(Style{})[i];
   }
 }
 
 TEST(Styles, WhatIsGivenWins) {
   Options options;
-  options.style = Style::luft_deussen;
+  options.style = Style::paper_previous;
   options.method = Method::uncontrolled;
   options.radius_max = 3;
   options.flatness = 0.5;
@@ -113,7 +131,7 @@ TEST(Styles, AnyThresholdReplacesTheStyles) {
   EXPECT_FALSE(resolve(options).coverage || resolve(options).threshold);
 
   options = {};
-  options.style = Style::thin;
+  options.style = Style::paper_thin;
   options.coverage = 0.5;
   EXPECT_EQ(resolve(options).coverage, 0.5);
   EXPECT_FALSE(resolve(options).threshold);
@@ -146,7 +164,7 @@ TEST(Resolution, VoxelSizeLeavesTheResolutionOpen) {
 TEST(Resolve, IsIdempotent) {
   Options options;
   options.preset = Preset::fine;
-  options.style = Style::thin;
+  options.style = Style::paper_thin;
   const Options once = resolve(options);
   const Options twice = resolve(once);
   EXPECT_EQ(twice.resolution, once.resolution);

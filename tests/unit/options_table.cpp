@@ -61,7 +61,7 @@ TEST(OptionTable, DefaultsAreThoseOfOptions) {
 }
 
 TEST(OptionTable, RangesOfEnumerationsAreTheirNames) {
-  EXPECT_EQ(row("style").range, "painterly, thin, fat, luft-deussen");
+  EXPECT_EQ(row("style").range, "painterly, thin, fat, previous, paper-thin, paper-fat, paper-previous");
   EXPECT_EQ(row("method").range, "isotropic, uncontrolled, controlled");
   EXPECT_EQ(row("radius-unit").range, "crown, leaf, model");
   EXPECT_EQ(row("spread").range, "stddev, variance");
@@ -85,7 +85,7 @@ TEST(OptionTable, MembersAreTheNamedOnes) {
 }
 
 TEST(Names, FollowTheEnumerations) {
-  EXPECT_EQ(name(Style::luft_deussen), "luft-deussen");
+  EXPECT_EQ(name(Style::paper_previous), "paper-previous");
   EXPECT_EQ(name(Method::uncontrolled), "uncontrolled");
   EXPECT_EQ(name(RadiusUnit::model), "model");
   EXPECT_EQ(name(Spread::variance), "variance");

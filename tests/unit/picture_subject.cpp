@@ -217,7 +217,7 @@ TEST_F(Trees, StandInOneFrameTogether) {
         tree_subject(tree(), leaves(), draft(style), Surfacing::mesh, device(), {}, frame);
     return camera_of(subject.parts(), options);
   };
-  const render::Camera thin = camera(Style::thin), painterly = camera(Style::painterly);
+  const render::Camera thin = camera(Style::paper_thin), painterly = camera(Style::painterly);
   EXPECT_EQ(thin.eye, painterly.eye);
   EXPECT_EQ(thin.tan_x, painterly.tan_x);
 }
