@@ -43,9 +43,9 @@ constexpr StyleValues kPaperStyles[] = {
     {Method::isotropic, 1.5, 1.5, {}, 1.0, PointSource::vertices, 0.4, 0},
 };
 constexpr StyleValues kStyles[] = {
-    {Method::controlled, 3.0, {}, 0.98, 0.8, PointSource::area, 0.33, 0.001},
+    {Method::controlled, 3.5, {}, 0.98, 0.8, PointSource::area, 0.33, 0.001},
     {Method::controlled, 1.4, {}, 0.85, 0.7, PointSource::area, 0.33, 0.001},
-    {Method::controlled, 4.5, {}, 0.99, 1.0, PointSource::area, 0.33, 0.001},
+    {Method::controlled, 5.0, {}, 0.99, 1.0, PointSource::area, 0.33, 0.001},
     {Method::isotropic, 2.5, {}, 0.95, 1.0, PointSource::area, 0.33, 0.001},
     kPaperStyles[0],
     kPaperStyles[1],

@@ -67,7 +67,7 @@ LeafPoints area_points(const LeafSet& leaves, double spacing) {
   result.points = join_in_cells(place_parts(sheets, spacing), spacing);
   sort_points(result.points);
   for (const LeafPoint& point : result.points) result.area += point.area;
-  result.samples = samples_of(sheets);
+  result.samples = samples_of(sheets, leaves.crown);
   return result;
 }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <span>
 
 #include "points/cut.h"
 
@@ -23,13 +24,30 @@ struct Taken {
   double before;  ///< the area of the leaves before
 };
 
-std::vector<Taken> leaves_with_samples(const LeafSheets& sheets, double step) {
+bool contains(const Box& box, Vec3d p) {
+  return box.low.x <= p.x && p.x <= box.high.x && box.low.y <= p.y && p.y <= box.high.y &&
+         box.low.z <= p.z && p.z <= box.high.z;
+}
+
+/// The leaves whose middle lies in `crown`, or all where none does.
+std::vector<std::size_t> leaves_in(const LeafSheets& sheets, const Box& crown) {
+  std::vector<std::size_t> within, all;
+  for (std::size_t i = 0; i < sheets.sheets.size(); ++i) {
+    const Sheet& sheet = sheets.sheets[i];
+    all.push_back(i);
+    if (contains(crown, sheet.at(sheets.charts[sheet.chart].centre))) within.push_back(i);
+  }
+  return within.empty() ? all : within;
+}
+
+std::vector<Taken> leaves_with_samples(const LeafSheets& sheets,
+                                       std::span<const std::size_t> leaves, double step) {
   std::vector<Taken> taken;
   double before = 0;
   std::size_t first = 0;
-  for (std::size_t i = 0; i < sheets.sheets.size(); ++i) {
+  for (const std::size_t i : leaves) {
     const double after = before + sheets.sheets[i].area;
-    const bool last = i + 1 == sheets.sheets.size();
+    const bool last = i == leaves.back();
     const std::size_t end =
         last ? kSamples
              : std::min(kSamples,
@@ -43,9 +61,12 @@ std::vector<Taken> leaves_with_samples(const LeafSheets& sheets, double step) {
 
 }  // namespace
 
-std::vector<Vec3d> samples_of(const LeafSheets& sheets) {
-  const double step = sheets.area / static_cast<double>(kSamples);
-  const std::vector<Taken> taken = leaves_with_samples(sheets, step);
+std::vector<Vec3d> samples_of(const LeafSheets& sheets, const Box& crown) {
+  const std::vector<std::size_t> leaves = leaves_in(sheets, crown);
+  double area = 0;
+  for (const std::size_t i : leaves) area += sheets.sheets[i].area;
+  const double step = area / static_cast<double>(kSamples);
+  const std::vector<Taken> taken = leaves_with_samples(sheets, leaves, step);
   std::vector<std::size_t> wanted(sheets.charts.size(), 0);
   for (const Taken& t : taken) {
     std::size_t& places = wanted[sheets.sheets[t.sheet].chart];

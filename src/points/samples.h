@@ -7,7 +7,8 @@
 
 namespace leafhull {
 
-/// Places on the visible area of the leaves, each standing for an equal share of it.
-std::vector<Vec3d> samples_of(const LeafSheets& sheets);
+/// Places on the visible area of the leaves in `crown`, each standing for an equal share of it:
+/// strays are not to move T.
+std::vector<Vec3d> samples_of(const LeafSheets& sheets, const Box& crown);
 
 }  // namespace leafhull

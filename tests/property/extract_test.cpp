@@ -311,10 +311,19 @@ TEST(FarFromTheOrigin, TheShapeIsTheSame) {
 TEST(Coverage, IsTheFractionOfLeafVerticesKept) {
   for (const double coverage : {0.5, 0.92, 1.0}) {
     Options options = of_style(Style::painterly);
+    options.points = PointSource::vertices;
     options.coverage = coverage;
     const Report report = extract(ash(), options, device()).report;
     const auto count = static_cast<double>(report.counts.leaf_vertices);
     EXPECT_NEAR(static_cast<double>(report.metrics.off_site_exact), (1 - coverage) * count, 1);
+  }
+}
+
+TEST(Coverage, IsTheFractionOfTheSamplesOfLeafAreaKept) {
+  for (const double coverage : {0.5, 0.92}) {
+    Options options = of_style(Style::painterly);
+    options.coverage = coverage;
+    EXPECT_NEAR(extract(ash(), options, device()).report.covered, coverage, 1e-4);
   }
 }
 
@@ -329,7 +338,7 @@ TEST(CrownUnits, ScaleWithTheTreeNotTheResolution) {
   const double side = ash().bounds.longest_side();
   for (const Preset preset : {Preset::paper_32, Preset::draft}) {
     const Report report = extract(ash(), of_style(Style::painterly, preset), device()).report;
-    EXPECT_DOUBLE_EQ(report.radius_max_model, 2.5 * side / 64);
+    EXPECT_DOUBLE_EQ(report.radius_max_model, 3.5 * side / 64);
     EXPECT_DOUBLE_EQ(report.voxel_size, (side + 2 * report.radius_max_model) / report.resolution);
   }
 }

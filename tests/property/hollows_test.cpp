@@ -35,11 +35,13 @@ LeafSet crown(double open = 0) {
     leaves.vertices.push_back({p, {0, 1, 0}, {1, 0, 0}, 1, 1, 0});
     leaves.bounds.include(p);
   }
+  leaves.crown = leaves.bounds;
   return leaves;
 }
 
 Options hollows(Hollows hollows, double threshold = kThreshold) {
   Options options;
+  options.points = PointSource::vertices;
   options.method = Method::isotropic;
   options.radius_unit = RadiusUnit::model;
   options.radius_max = kReach;
@@ -140,6 +142,7 @@ TEST(Hollows, OfARealTreeAreTheSameInADenseField) {
   const LeafSet ash = find_leaves(read_tree(LEAFHULL_EXAMPLES "/ash.glb"), {});
   Options options;
   options.threshold_percent = 60;
+  options.hollows = Hollows::keep;
   const Shape kept = extract(ash, options, device());
   options.hollows = Hollows::fill;
   const Shape band = extract(ash, options, device());

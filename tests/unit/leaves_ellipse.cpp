@@ -259,8 +259,6 @@ TEST(MaskEllipse, WithoutAMaskTheTrianglesDecide) {
     EXPECT_TRUE(set.warnings.empty());
   }
 
-  TreeModel empty = cut;
-  empty.images[0] = alpha_image(64, [](double, double) { return 0; });
   TreeModel no_uvs = cut;
   no_uvs.primitives[0].uvs.clear();
   TreeModel one_uv = cut;
@@ -269,12 +267,19 @@ TEST(MaskEllipse, WithoutAMaskTheTrianglesDecide) {
   for (Vec2f& uv : line.primitives[0].uvs) uv.y = uv.x;
   TreeModel endless = cut;
   for (Vec2f& uv : endless.primitives[0].uvs) uv = {uv.x * 1e30f, uv.y * 1e30f};
-  for (const TreeModel& tree : {empty, no_uvs, one_uv, line, endless}) {
+  for (const TreeModel& tree : {no_uvs, one_uv, line, endless}) {
     const LeafSet set = find_leaves(tree, {});
     expect_radii(set, 2 / kSqrt3, 1 / kSqrt3);
     ASSERT_EQ(set.warnings.size(), 1u);
     EXPECT_EQ(set.warnings[0].find("1 leaf has no usable texture coordinates"), 0u);
   }
+
+  TreeModel empty = cut;
+  empty.images[0] = alpha_image(64, [](double, double) { return 0; });
+  const LeafSet whole = find_leaves(empty, {});
+  expect_radii(whole, 2 / kSqrt3, 1 / kSqrt3);
+  ASSERT_EQ(whole.warnings.size(), 1u);
+  EXPECT_NE(whole.warnings[0].find("transparent everywhere"), std::string::npos);
 }
 
 TEST(MaskEllipse, MirroredBackFacesDoNotSpoilTheMap) {

@@ -47,7 +47,7 @@ TEST(Styles, PainterlyIsTheDefaultAndHasItsValues) {
   const Options options = resolve({});
   EXPECT_EQ(options.style, Style::painterly);
   EXPECT_EQ(options.method, Method::controlled);
-  EXPECT_EQ(options.radius_max, 3);
+  EXPECT_EQ(options.radius_max, 3.5);
   EXPECT_EQ(options.coverage, 0.98);
   EXPECT_EQ(options.points, PointSource::area);
   EXPECT_EQ(options.point_spacing, 0.33);
@@ -262,7 +262,7 @@ TEST(Ranges, NotANumberAndInfinityAreRefusedEverywhere) {
       ++checked;
     }
   }
-  EXPECT_EQ(checked, 3 * 11);
+  EXPECT_EQ(checked, 3 * 12);
 }
 
 TEST(Ranges, WholeNumbers) {

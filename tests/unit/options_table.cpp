@@ -24,7 +24,8 @@ TEST(OptionTable, HasEveryOptionOnce) {
       "threshold", "coverage",      "radius-max", "radius-unit", "threshold-percent",
       "flatness",  "falloff",       "spread",     "density",     "band-low",
       "band-high", "min-component", "preset",     "resolution",  "voxel-size",
-      "dense",     "snap",          "mesher",     "adaptivity",  "hollows"};
+      "dense",     "snap",          "mesher",     "adaptivity",  "hollows",
+      "points",    "point-spacing"};
   std::set<std::string_view> found;
   for (const OptionRow& row : option_table()) {
     EXPECT_TRUE(found.insert(row.name).second) << row.name << " stands twice";
@@ -61,7 +62,8 @@ TEST(OptionTable, DefaultsAreThoseOfOptions) {
 }
 
 TEST(OptionTable, RangesOfEnumerationsAreTheirNames) {
-  EXPECT_EQ(row("style").range, "painterly, thin, fat, previous, paper-thin, paper-fat, paper-previous");
+  EXPECT_EQ(row("style").range,
+            "painterly, thin, fat, previous, paper-thin, paper-fat, paper-previous");
   EXPECT_EQ(row("method").range, "isotropic, uncontrolled, controlled");
   EXPECT_EQ(row("radius-unit").range, "crown, leaf, model");
   EXPECT_EQ(row("spread").range, "stddev, variance");

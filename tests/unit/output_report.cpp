@@ -68,7 +68,7 @@ TEST(Report, ResolvesEveryParameter) {
   EXPECT_EQ(parameters["coverage"], 0.8);
   EXPECT_TRUE(parameters["threshold_percent"].is_null());
   EXPECT_EQ(parameters["threshold"], 1.7);
-  EXPECT_EQ(parameters["radius_max"], 2.5);
+  EXPECT_EQ(parameters["radius_max"], 3.5);
   EXPECT_EQ(parameters["radius_max_model"], 0.3);
   EXPECT_EQ(parameters["resolution"], 128);
   EXPECT_EQ(parameters["voxel_size"], 0.1);
@@ -80,19 +80,22 @@ TEST(Report, ResolvesEveryParameter) {
 TEST(Report, CopiesEveryFigure) {
   const Json report = report_of(sample_shape());
   EXPECT_EQ(report["counts"].dump(),
-            R"({"leaves":1,"leaf_vertices":2,"dropped_leaves":3,"split_components":4,)"
+            R"({"leaves":1,"leaf_vertices":2,"leaf_points":16,"leaf_area":17.5,)"
+            R"("dropped_leaves":3,"split_components":4,)"
             R"("evaluated_voxels":5000000000,"evaluated_pairs":6,"mesh_vertices":7,)"
             R"("mesh_triangles":8,"components":9,"dropped_components":10})");
-  EXPECT_EQ(report["density"].dump(), R"({"mean":0.1,"variance":0.2,"p1":0.3,"p2":0.4})");
-  EXPECT_EQ(report["metrics"].dump(), R"({"dilated_voxels":11,"inside_voxels":12,"on_voxels":13,)"
-                                      R"("off_site_exact":14,"off_site_sampled":15})");
+  EXPECT_EQ(report["density"].dump(),
+            R"({"mean":0.1,"variance":0.25,"deviation":0.5,"p1":0.3,"p2":0.4})");
+  EXPECT_EQ(report["metrics"].dump(),
+            R"({"dilated_voxels":11,"inside_voxels":12,"on_voxels":13,)"
+            R"("off_site_exact":14,"off_site_sampled":15,"covered":0.875})");
   EXPECT_EQ(report["seconds"].dump(), R"({"hash":2.0,"snap_vertices":0.25,"total":2.25})");
 }
 
 TEST(Report, WritesNumbersAsAPersonDoes) {
   const std::string text = report_json(sample_shape().report, {});
   EXPECT_NE(text.find("\n    \"threshold\": 1.7,"), std::string::npos) << text;
-  EXPECT_NE(text.find("\"radius_max\": 2.5,"), std::string::npos) << text;
+  EXPECT_NE(text.find("\"radius_max\": 3.5,"), std::string::npos) << text;
   EXPECT_EQ(text.back(), '\n');
 }
 

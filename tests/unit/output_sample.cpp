@@ -35,8 +35,11 @@ Shape sample_shape() {
   report.resolution = 128;
   report.voxel_size = 0.1;
   report.device = "a device";
+  report.leaf_area = 17.5;
+  report.covered = 0.875;
   report.counts = {.leaves = 1,
                    .leaf_vertices = 2,
+                   .leaf_points = 16,
                    .dropped_leaves = 3,
                    .split_components = 4,
                    .evaluated_voxels = 5'000'000'000,
@@ -45,7 +48,7 @@ Shape sample_shape() {
                    .mesh_triangles = 8,
                    .components = 9,
                    .dropped_components = 10};
-  report.density = {.mean = 0.1, .variance = 0.2, .p1 = 0.3, .p2 = 0.4};
+  report.density = {.mean = 0.1, .variance = 0.25, .p1 = 0.3, .p2 = 0.4};
   report.metrics = {.dilated_voxels = 11,
                     .inside_voxels = 12,
                     .on_voxels = 13,
