@@ -48,6 +48,11 @@ struct LeafSet {
   /// crown units and resolutions count along. SPEC: 4.
   Box crown;
   std::size_t stray_leaves = 0;
+  bool in_crown(const LeafVertex& vertex) const {
+    const Vec3d p = vertex.position;
+    return crown.low.x <= p.x && p.x <= crown.high.x && crown.low.y <= p.y && p.y <= crown.high.y &&
+           crown.low.z <= p.z && p.z <= crown.high.z;
+  }
   std::vector<std::string> warnings;
 };
 

@@ -82,8 +82,8 @@ ForestModel prepare_model(const LeafSet& all, int level, const Options& resolved
   ForestModel model;
   model.leaves = leaves.vertices;
   model.kernels = stages.take_kernels();
-  model.isotropic_density = stages.take_isotropic_density();
-  model.density = stages.take_density_there();
+  model.isotropic_density = in_crown(leaves, stages.take_isotropic_density());
+  model.density = in_crown(leaves, stages.take_density_there());
   model.radius_max = report.radius_max_model;
   model.groups = groups_of(model.kernels);
   for (const Kernel& k : model.kernels) model.bounds.include(k.centre);

@@ -25,8 +25,9 @@ struct KernelGroup {
 struct ForestModel {
   std::vector<LeafVertex> leaves;
   std::vector<Kernel> kernels;  ///< one per leaf vertex; their radii controlled within the model
-  std::vector<float> isotropic_density, density;  ///< N_iso and N there, of the tree alone
-  double radius_max = 0;                          ///< R_max
+  /// N_iso and N of the tree alone, at the leaf vertices in the crown.
+  std::vector<float> isotropic_density, density;
+  double radius_max = 0;  ///< R_max
   std::vector<KernelGroup> groups;
   Box bounds;        ///< of the centres
   double crown = 0;  ///< its longest side

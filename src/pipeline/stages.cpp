@@ -53,6 +53,15 @@ double threshold_of(const Options& options, const DensityStatistics& statistics,
 
 }  // namespace
 
+std::vector<float> in_crown(const LeafSet& leaves, std::vector<float> values) {
+  if (leaves.stray_leaves == 0) return values;
+  std::vector<float> kept;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (leaves.in_crown(leaves.vertices[i])) kept.push_back(values[i]);
+  }
+  return kept;
+}
+
 FieldKey field_key(const Report& report) {
   const int margin = report.options.adaptivity > 0 ? 2 : 1;  // adaptive meshing looks further
   return {kernels_key(report), report.voxel_size, margin, report.options.dense};
@@ -94,7 +103,7 @@ void Stages::prepare(Report& report) {
 
   // Steps 3 to 5: p1 and p2, and from them the radii.
   watch_.start("control");
-  report.density = density_statistics(isotropic_density_.value, options);
+  report.density = density_statistics(in_crown(leaves_, isotropic_density_.value), options);
   kernels_.update(kernels_key(report), [&] {
     return controlled_kernels(leaves_.vertices, isotropic_density_.value, report.density,
                               radius_max, options);
@@ -106,7 +115,7 @@ void Stages::prepare(Report& report) {
         options.method == Method::isotropic && options.density == DensitySource::exact;
     return known ? isotropic_density_.value : density_at_leaves(report, kernels_.value);
   });
-  report.threshold = threshold_of(options, report.density, density_there_.value);
+  report.threshold = threshold_of(options, report.density, in_crown(leaves_, density_there_.value));
 }
 
 FieldMemory Stages::memory(const Report& prepared, const std::vector<double>& thresholds) {

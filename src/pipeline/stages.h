@@ -51,6 +51,9 @@ using FieldKey = std::tuple<KernelsKey, double, int, bool>;
 /// Of a report with its options and grid set.
 FieldKey field_key(const Report& report);
 
+/// Of values at the leaf vertices those in the crown: strays decide neither control nor T.
+std::vector<float> in_crown(const LeafSet& leaves, std::vector<float> values);
+
 /// The stages of the paper's Figure 8 on one tree. Each keeps its last result and works again only
 /// where what it depends on has changed.
 class Stages {
