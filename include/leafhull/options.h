@@ -101,8 +101,8 @@ struct OptionRow {
                    Style Options::*, std::optional<Method> Options::*, RadiusUnit Options::*,
                    std::optional<PointSource> Options::*, Spread Options::*,
                    DensitySource Options::*, std::optional<Hollows> Options::*, Mesher Options::*,
-                   std::optional<Preset> Options::*,
-                   std::vector<std::string> Options::*, std::optional<TextureEllipse> Options::*>;
+                   std::optional<Preset> Options::*, std::vector<std::string> Options::*,
+                   std::optional<TextureEllipse> Options::*>;
 
   /// As in the flag --name and, with underscores, in the report. What is on by default has the
   /// flag --no-name.

@@ -67,6 +67,10 @@ struct Box {
     high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
   }
   bool empty() const { return !(low.x <= high.x); }
+  bool contains(Vec3d p) const {
+    return low.x <= p.x && p.x <= high.x && low.y <= p.y && p.y <= high.y && low.z <= p.z &&
+           p.z <= high.z;
+  }
   Vec3d size() const { return empty() ? Vec3d{} : high - low; }
   double longest_side() const {
     const Vec3d s = size();

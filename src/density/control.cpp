@@ -31,9 +31,12 @@ Kernel kernel_at(const LeafPoint& leaf, Vec3d radii, int falloff) {
 }  // namespace
 
 DensityStatistics density_statistics(std::span<const LeafPoint> leaves,
-                                     std::span<const float> isotropic_density,
+                                     std::span<const float> isotropic_density, const Box& crown,
                                      const Options& resolved) {
-  const auto weight = [&](std::size_t j) { return leaves[j].area > 0 ? leaves[j].area : 1.0; };
+  const auto weight = [&](std::size_t j) {
+    if (!crown.contains(leaves[j].position)) return 0.0;
+    return leaves[j].area > 0 ? leaves[j].area : 1.0;
+  };
   DensityStatistics s;
   double all = 0;
   for (std::size_t j = 0; j < leaves.size(); ++j) {

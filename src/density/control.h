@@ -11,11 +11,11 @@
 
 namespace leafhull {
 
-/// Mean and variance of N_iso over the leaf points, by their area, and the densities p1 and p2
-/// between which kernels go from isotropic to the shape of their leaf. Source: Eqs. (9), (10); the
-/// paper prints the variance for the spread (SPEC: 3, open point).
+/// Mean and variance of N_iso over the leaf points in `crown`, by their area, and the densities p1
+/// and p2 between which kernels go from isotropic to the shape of their leaf. Source: Eqs. (9),
+/// (10); the paper prints the variance for the spread (SPEC: 3, open point).
 DensityStatistics density_statistics(std::span<const LeafPoint> leaves,
-                                     std::span<const float> isotropic_density,
+                                     std::span<const float> isotropic_density, const Box& crown,
                                      const Options& resolved);
 
 /// The same from a mean and a variance.

@@ -91,7 +91,7 @@ ForestModel prepare_model(const LeafSet& all, int level, const Options& resolved
   model.radius_max = report.radius_max_model;
   model.groups = groups_of(model.kernels);
   for (const Kernel& k : model.kernels) model.bounds.include(k.centre);
-  model.crown = leaves.crown.longest_side();
+  model.crown = leaves.crown;
   model.reach = report.radius_max_model;
   return model;
 }
@@ -105,6 +105,7 @@ double weighted_mean(const std::vector<ForestModel>& models, std::span<const Mod
   for (std::size_t m = 0; m < models.size(); ++m) {
     const ForestModel& model = models[m];
     for (std::size_t j = 0; j < model.leaves.size(); ++j) {
+      if (!model.crown.contains(model.leaves[j].position)) continue;
       const double area = model.leaves[j].area;
       const double weight = area > 0 ? area * uses[m].area : static_cast<double>(uses[m].trees);
       sum += weight * static_cast<double>(model.isotropic_density[j]);
@@ -147,7 +148,7 @@ double threshold_of(const ForestLevel& level, std::span<const ModelUse> uses,
 /// measured on voxels no smaller than a share of the tree, so that it takes no more memory than a
 /// tile.
 double largest_piece(const ForestModel& model, const ForestLevel& level, Device& device) {
-  const double side = model.crown + 2 * model.reach;
+  const double side = model.crown.longest_side() + 2 * model.reach;
   const double voxel_size = std::max(level.voxel_size, side / kMostVoxels);
   const Lattice lattice = Lattice::near(model.bounds.low, voxel_size);
   const auto hash = std::make_shared<const SpatialHash>(

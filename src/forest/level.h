@@ -32,7 +32,7 @@ struct ForestModel {
   double radius_max = 0;                 ///< R_max
   std::vector<KernelGroup> groups;
   Box bounds;        ///< of the centres
-  double crown = 0;  ///< its longest side
+  Box crown;         ///< the leaves' but for strays
   double reach = 0;  ///< the largest radius, R_max included
 };
 

@@ -180,7 +180,7 @@ void Stages::prepare(Report& report) {
 
   // Steps 3 to 5: p1 and p2, and from them the radii.
   watch_.start("control");
-  report.density = density_statistics(points, isotropic_density_.value, options);
+  report.density = density_statistics(points, isotropic_density_.value, leaves_.crown, options);
   kernels_.update(kernels_key(report), [&] {
     return controlled_kernels(points, isotropic_density_.value, report.density, radius_max,
                               options);
@@ -190,7 +190,7 @@ void Stages::prepare(Report& report) {
   density_there_.update(kernels_key(report), [&] {
     const bool known = options.method == Method::isotropic &&
                        options.density == DensitySource::exact &&
-                       options.points == PointSource::vertices;
+                       options.points == PointSource::vertices && leaves_.stray_leaves == 0;
     return known ? isotropic_density_.value
                  : density_at(points_.value.samples, report, kernels_.value);
   });

@@ -47,7 +47,7 @@ LeafPoints vertex_points(const LeafSet& leaves) {
   result.samples.reserve(leaves.vertices.size());
   for (const LeafVertex& v : leaves.vertices) {
     result.points.push_back({v.position, v.normal, v.major, v.radius_major, v.radius_minor, 0});
-    result.samples.push_back(v.position);
+    if (leaves.crown.contains(v.position)) result.samples.push_back(v.position);
   }
   return result;
 }

@@ -11,7 +11,7 @@ namespace leafhull {
 struct LeafPoints {
   std::vector<LeafPoint> points;  ///< in an order that depends on the geometry alone
   /// Places that stand for equal shares of the leaves: their vertices, or even samples of their
-  /// visible area. A coverage is a share of these.
+  /// visible area, those of strays left out. A coverage is a share of these.
   std::vector<Vec3d> samples;
   double area = 0;  ///< of all points, model units squared; 0 where they are vertices
 };

@@ -24,18 +24,13 @@ struct Taken {
   double before;  ///< the area of the leaves before
 };
 
-bool contains(const Box& box, Vec3d p) {
-  return box.low.x <= p.x && p.x <= box.high.x && box.low.y <= p.y && p.y <= box.high.y &&
-         box.low.z <= p.z && p.z <= box.high.z;
-}
-
 /// The leaves whose middle lies in `crown`, or all where none does.
 std::vector<std::size_t> leaves_in(const LeafSheets& sheets, const Box& crown) {
   std::vector<std::size_t> within, all;
   for (std::size_t i = 0; i < sheets.sheets.size(); ++i) {
     const Sheet& sheet = sheets.sheets[i];
     all.push_back(i);
-    if (contains(crown, sheet.at(sheets.charts[sheet.chart].centre))) within.push_back(i);
+    if (crown.contains(sheet.at(sheets.charts[sheet.chart].centre))) within.push_back(i);
   }
   return within.empty() ? all : within;
 }

@@ -38,11 +38,6 @@ Box box_of(const Frame& frame) {
   return {box.low - reach, box.high + reach};
 }
 
-bool holds(const Box& box, Vec3d p) {
-  return box.low.x <= p.x && p.x <= box.high.x && box.low.y <= p.y && p.y <= box.high.y &&
-         box.low.z <= p.z && p.z <= box.high.z;
-}
-
 }  // namespace
 }  // namespace render
 
@@ -50,7 +45,7 @@ Frame frame_of(const LeafSet& leaves, double radius_max) {
   Frame frame{{}, radius_max};
   frame.points.reserve(leaves.vertices.size());
   for (const LeafVertex& leaf : leaves.vertices) {
-    if (!render::holds(leaves.crown, leaf.position)) continue;
+    if (!leaves.crown.contains(leaf.position)) continue;
     frame.points.push_back(leaf.position);
     frame.reach = std::max(frame.reach, static_cast<double>(leaf.radius_major));
   }

@@ -86,7 +86,8 @@ TEST_P(Strays, KeepTheCrownUnitTheVoxelsAndTheVolume) {
   EXPECT_EQ(littered.report.radius_max_model, plain.report.radius_max_model);
   EXPECT_EQ(littered.report.voxel_size, plain.report.voxel_size);
   EXPECT_EQ(littered.report.resolution, plain.report.resolution);
-  EXPECT_NEAR(volume(littered.mesh) / volume(plain.mesh), 1, 0.02);
+  EXPECT_EQ(littered.report.threshold, plain.report.threshold);
+  EXPECT_NEAR(volume(littered.mesh) / volume(plain.mesh), 1, 0.001);
 }
 
 TEST_P(Strays, KeepTheVoxelsOfAForest) {

@@ -15,6 +15,8 @@ LeafPoint leaf(float major, float minor, double area = 0) {
   return {{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, major, minor, area};
 }
 
+const Box kCrown{{-1, -1, -1}, {1, 1, 1}};
+
 Options controlled(double flatness) {
   Options options;
   options.method = Method::controlled;
@@ -26,7 +28,7 @@ TEST(Control, StatisticsOfEquations9And10) {
   const std::vector<LeafPoint> leaves(4, leaf(1, 1));
   const std::vector<float> density{1, 2, 3, 6};
   Options options;
-  const DensityStatistics s = density_statistics(leaves, density, options);
+  const DensityStatistics s = density_statistics(leaves, density, kCrown, options);
   EXPECT_DOUBLE_EQ(s.mean, 3);
   EXPECT_DOUBLE_EQ(s.variance, 3.5);
   EXPECT_DOUBLE_EQ(s.p1, 3);
@@ -34,7 +36,7 @@ TEST(Control, StatisticsOfEquations9And10) {
 
   options.spread = Spread::variance;
   options.band_low = -1;
-  const DensityStatistics v = density_statistics(leaves, density, options);
+  const DensityStatistics v = density_statistics(leaves, density, kCrown, options);
   EXPECT_DOUBLE_EQ(v.p1, 3 - 3.5);
   EXPECT_DOUBLE_EQ(v.p2, 3 + 2 * 3.5);
 }
@@ -120,13 +122,21 @@ TEST(Control, LeafPointsCountByTheirArea) {
   const std::vector<LeafPoint> leaves{leaf(1, 1, 3), leaf(1, 1, 1)};
   Options options;
   options.points = PointSource::area;
-  const DensityStatistics s = density_statistics(leaves, std::vector<float>{1, 5}, options);
+  const DensityStatistics s = density_statistics(leaves, std::vector<float>{1, 5}, kCrown, options);
   EXPECT_DOUBLE_EQ(s.mean, 2);
   EXPECT_DOUBLE_EQ(s.variance, 3);
   // A ripple is no spread.
   const DensityStatistics even =
-      density_statistics(leaves, std::vector<float>{1.01f, 0.97f}, options);
+      density_statistics(leaves, std::vector<float>{1.01f, 0.97f}, kCrown, options);
   EXPECT_NEAR(even.p2, 1.3 * even.mean, 1e-9);
+}
+
+TEST(Control, StraysCountForNothing) {
+  std::vector<LeafPoint> leaves(3, leaf(1, 1));
+  leaves[1].position = {0, 5, 0};
+  const DensityStatistics s = density_statistics(leaves, std::vector<float>{1, 100, 3}, kCrown, {});
+  EXPECT_DOUBLE_EQ(s.mean, 2);
+  EXPECT_DOUBLE_EQ(s.variance, 1);
 }
 
 TEST(Control, CoverageKeepsClearOfSheets) {
