@@ -88,8 +88,21 @@ class Place {
 
   /// The leaf points in the tile.
   Centres own_centres(std::span<const KernelRun> runs) const {
-    const std::vector<Vec3d> points = local_centres(runs);
-    const std::vector<std::uint64_t> weights = weights_of(scene_, level_, runs);
+    return own(local_centres(runs), weights_of(scene_, level_, runs));
+  }
+
+  /// The places on leaves in the tile.
+  Centres own_samples() const {
+    const Box box = box_of(own());
+    const Vec3d rounding = (box.high - box.low) * 1e-3;
+    PlacedSamples samples =
+        samples_in(scene_, level_, task_.trees, {box.low - rounding, box.high + rounding});
+    for (Vec3d& p : samples.points) p = lattice_.local(p);
+    return own(samples.points, samples.weights);
+  }
+
+ private:
+  Centres own(std::span<const Vec3d> points, std::span<const std::uint64_t> weights) const {
     Centres centres;
     for (std::size_t i = 0; i < points.size(); ++i) {
       if (!own().meets({cell_of(points[i]), 1})) continue;
@@ -99,7 +112,6 @@ class Place {
     return centres;
   }
 
- private:
   const Scene& scene_;
   const ForestLevel& level_;
   const TileTask& task_;
@@ -148,10 +160,10 @@ std::vector<WeightedDensity> isotropic_density_in(const Scene& scene, const Fore
 std::vector<WeightedDensity> density_in(const Scene& scene, const ForestLevel& level,
                                         const TileTask& task, Device& device) {
   const Place place(scene, level, task, device);
+  const Place::Centres samples = place.own_samples();
+  if (samples.points.empty()) return {};
   const std::vector<KernelRun> runs = place.runs_near(place.box_of(place.own()));
-  const auto [points, weights] = place.own_centres(runs);
-  if (points.empty()) return {};
-  return weighted(place.density(runs).at(points), weights);
+  return weighted(place.density(runs).at(samples.points), samples.weights);
 }
 
 }  // namespace leafhull

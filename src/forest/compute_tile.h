@@ -28,7 +28,7 @@ TileSurface compute_tile(const Scene& scene, const ForestLevel& level, const Til
 std::vector<WeightedDensity> isotropic_density_in(const Scene& scene, const ForestLevel& level,
                                                   const TileTask& task, Device& device);
 
-/// N at the leaf points in a tile.
+/// N at the places on leaves in a tile.
 std::vector<WeightedDensity> density_in(const Scene& scene, const ForestLevel& level,
                                         const TileTask& task, Device& device);
 

@@ -82,9 +82,29 @@ std::vector<std::uint64_t> weights_of(const Scene& scene, const ForestLevel& lev
   std::vector<std::uint64_t> weights(count(runs));
   for_each_kernel(scene, level, runs,
                   [&](const TreeMap& map, const ForestModel& model, std::size_t j, std::size_t at) {
-                    weights[at] = weight_of(model.leaves[j], map.area(), level);
+                    weights[at] = weight_of(model.leaves[j].area, map.area(), level.area_unit);
                   });
   return weights;
+}
+
+PlacedSamples samples_in(const Scene& scene, const ForestLevel& level,
+                         std::span<const std::uint32_t> trees, const Box& box) {
+  PlacedSamples found;
+  for (const std::uint32_t t : trees) {
+    const PlacedTree& tree = scene.trees[t];
+    const ForestModel& model = level.models[tree.model];
+    const TreeMap map(tree);
+    if (apart(map(model.bounds), box, model.reach * map.stretch())) continue;
+    const double area = model.area / static_cast<double>(model.samples.size());
+    const std::uint64_t weight = weight_of(area, map.area(), level.sample_unit);
+    for (const Vec3d& sample : model.samples) {
+      const Vec3d p = map(sample);
+      if (!box.contains(p)) continue;
+      found.points.push_back(p);
+      found.weights.push_back(weight);
+    }
+  }
+  return found;
 }
 
 KernelSet placed_kernels(const Scene& scene, const ForestLevel& level,

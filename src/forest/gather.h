@@ -32,6 +32,16 @@ std::vector<Vec3d> centres_of(const Scene& scene, const ForestLevel& level,
 std::vector<std::uint64_t> weights_of(const Scene& scene, const ForestLevel& level,
                                       std::span<const KernelRun> runs);
 
+/// Places on the leaves of `trees`, in scene units, and how much each counts.
+struct PlacedSamples {
+  std::vector<Vec3d> points;
+  std::vector<std::uint64_t> weights;
+};
+
+/// Those of the trees' samples that lie in `box`.
+PlacedSamples samples_in(const Scene& scene, const ForestLevel& level,
+                         std::span<const std::uint32_t> trees, const Box& box);
+
 /// Which kernel of the model stands at place `j` of it and `at` of all runs.
 using KernelOf = std::function<Kernel(const ForestModel& model, std::size_t j, std::size_t at)>;
 

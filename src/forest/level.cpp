@@ -87,6 +87,7 @@ ForestModel prepare_model(const LeafSet& all, int level, const Options& resolved
   model.density = stages.take_density_there();
   LeafPoints points = stages.take_points();
   model.leaves = std::move(points.points);
+  model.samples = std::move(points.samples);
   model.area = points.area;
   model.radius_max = report.radius_max_model;
   model.groups = groups_of(model.kernels);
@@ -222,21 +223,22 @@ ForestLevel prepare_level(int number, std::span<const LeafSet> models,
     level.reach = std::max(level.reach, level.models[m].reach * uses[m].largest);
     radius_max = std::max(radius_max, level.models[m].radius_max * uses[m].largest);
   }
-  double points = 0;
+  double area = 0, points = 0, samples = 0;
   for (const ForestModel& model : level.models) {
-    level.area_unit += model.area;
+    area += model.area;
     points += static_cast<double>(model.leaves.size());
+    samples += static_cast<double>(model.samples.size());
   }
-  if (points > 0) level.area_unit /= points;
+  level.area_unit = area / points;
+  level.sample_unit = area / samples;
   level.threshold = threshold_of(level, uses, finest);
   // A voxel, and what R_max has grown by since level 0.
   level.error = level.voxel_size + radius_max * (1 - std::ldexp(1.0, -number));
   return level;
 }
 
-std::uint64_t weight_of(const LeafPoint& leaf, double growth, const ForestLevel& level) {
-  if (leaf.area == 0) return 1;
-  return whole(std::ldexp(leaf.area * growth / level.area_unit, kAreaBits));
+std::uint64_t weight_of(double area, double growth, double mean_area) {
+  return area == 0 ? 1 : whole(std::ldexp(area * growth / mean_area, kAreaBits));
 }
 
 ExactVolume least_volume(const ForestLevel& level, std::span<const ModelUse> uses, Device& device) {

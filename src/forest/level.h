@@ -28,6 +28,7 @@ struct ForestModel {
   std::vector<Kernel> kernels;  ///< one per leaf point; their radii controlled within the model
   std::vector<float> isotropic_density;  ///< N_iso there, of the tree alone
   std::vector<float> density;            ///< N at the places on its leaves, of the tree alone
+  std::vector<Vec3d> samples;            ///< those places
   double area = 0;                       ///< of its leaf points; 0 where they are vertices
   double radius_max = 0;                 ///< R_max
   std::vector<KernelGroup> groups;
@@ -52,8 +53,10 @@ struct ForestLevel {
   /// Of ControlScope::scene: of N_iso over all trees, their neighbours included.
   std::optional<DensityStatistics> scene_statistics;
   ExactVolume least = 0;  ///< twelve times the least volume that a piece of surface may have
-  double area_unit = 0;   ///< the mean area of leaf points, as their models have it; 0: vertices
-  double error = 0;       ///< how far the surface may be from the finest, scene units
+  /// The mean areas of leaf points and of what samples stand for, as their models have them; 0:
+  /// vertices.
+  double area_unit = 0, sample_unit = 0;
+  double error = 0;  ///< how far the surface may be from the finest, scene units
 };
 
 /// The options of the shapes, resolved. A canopy keeps its hollows: a tile cannot tell whether one
@@ -90,8 +93,9 @@ ForestLevel prepare_level(int level, std::span<const LeafSet> models,
 /// tree, standing alone. Computes the surface of every model.
 ExactVolume least_volume(const ForestLevel& level, std::span<const ModelUse> uses, Device& device);
 
-/// How much a leaf point counts whose area grows by `growth`: by its area, a vertex for one.
-std::uint64_t weight_of(const LeafPoint& leaf, double growth, const ForestLevel& level);
+/// How much an area counts that grows by `growth`, against the mean one; an area of 0, as vertices
+/// have it, counts for 1.
+std::uint64_t weight_of(double area, double growth, double mean_area);
 
 /// T for a coverage of weighted densities, which are sorted: as threshold_for_coverage where all
 /// weights are one.

@@ -35,7 +35,7 @@ Json row(const TileRow& tile) {
           {"x", tile.x},
           {"y", tile.y},
           {"z", tile.z},
-          {"leaf_vertices", tile.leaf_vertices},
+          {"leaf_points", tile.leaf_vertices},
           {"gathered", tile.gathered},
           {"evaluated_voxels", tile.evaluated_voxels},
           {"vertices", tile.vertices},

@@ -68,6 +68,16 @@ class Histogram {
 
   std::span<std::uint64_t> counts() { return counts_; }
 
+  /// The lower ends of the bins, and how much lies in each.
+  std::vector<WeightedDensity> densities() const {
+    std::vector<WeightedDensity> all;
+    for (std::uint32_t bin = 0; bin < kBins; ++bin) {
+      if (counts_[bin] == 0) continue;
+      all.push_back({std::bit_cast<float>(kFirst + (bin << kDropped)), counts_[bin]});
+    }
+    return all;
+  }
+
  private:
   static constexpr std::uint32_t kDropped = 23 - 16;
   static constexpr std::uint32_t kFirst = (127u - 20) << 23;  // 2^-20
@@ -127,6 +137,10 @@ void control_over_scene(const Scene& scene, const TilePlan& plan, int edge,
   });
   ranks.sum(histogram.counts());
   level.threshold = histogram.quantile(*level.options.coverage);
+  if (level.options.points == PointSource::area) {
+    std::vector<WeightedDensity> densities = histogram.densities();
+    level.threshold = clear_of_sheets(densities, level.threshold, *level.options.coverage);
+  }
 }
 
 }  // namespace leafhull

@@ -62,7 +62,7 @@ Vec2d in_plane(const Axes& axes, const Eigen::Vector3d& point) {
   return {rounded(axes.along.cross(normal)), rounded(normal.cross(axes.across))};
 }
 
-auto sheet_key(const Sheet& s) {
+auto sheet_key(const LeafSheet& s) {
   return std::tuple(s.area, s.normal.x, s.normal.y, s.normal.z, s.major.x, s.major.y, s.major.z,
                     s.radius_major, s.radius_minor, s.origin.x, s.origin.y, s.origin.z, s.across.x,
                     s.across.y, s.across.z, s.along.x, s.along.y, s.along.z);
@@ -81,7 +81,7 @@ std::uint32_t SheetCollector::chart_of(Triangles triangles,
   const auto [known, is_new] = charts_.try_emplace({mask.get(), std::move(key)}, number);
   if (!is_new) return known->second;
 
-  Chart chart{std::move(triangles), mask, {}, {}};
+  LeafChart chart{std::move(triangles), mask, {}, {}};
   double sum = 0;
   for (const auto& [a, b, c] : chart.triangles) {
     const Vec2d middle{(a.x + b.x + c.x) / 3, (a.y + b.y + c.y) / 3};
@@ -121,7 +121,7 @@ void SheetCollector::take(const LeafMesh& leaf, const LeafEllipse& ellipse,
     triangles.push_back(corners);
   }
   const std::uint32_t number = chart_of(std::move(triangles), textured ? texture.mask : nullptr);
-  const Chart& chart = sheets_->charts[number];
+  const LeafChart& chart = sheets_->charts[number];
   double area = 0;
   for (std::size_t i = 0; i < faces.size(); ++i) {
     area += chart.visible[i] * leaf.areas[faces[i]].norm();
@@ -140,10 +140,10 @@ void SheetCollector::take(const LeafMesh& leaf, const LeafEllipse& ellipse,
 }
 
 std::shared_ptr<const LeafSheets> SheetCollector::finish() {
-  std::vector<Sheet>& sheets = sheets_->sheets;
+  std::vector<LeafSheet>& sheets = sheets_->sheets;
   std::vector<Vec3d> centres;
   centres.reserve(sheets.size());
-  for (const Sheet& sheet : sheets) {
+  for (const LeafSheet& sheet : sheets) {
     centres.push_back(sheet.at(sheets_->charts[sheet.chart].centre));
   }
   Box bounds;
@@ -151,11 +151,11 @@ std::shared_ptr<const LeafSheets> SheetCollector::finish() {
   const auto order = morton_order(centres, bounds, [&](std::uint32_t a, std::uint32_t b) {
     return sheet_key(sheets[a]) < sheet_key(sheets[b]);
   });
-  std::vector<Sheet> sorted;
+  std::vector<LeafSheet> sorted;
   sorted.reserve(sheets.size());
   for (const std::uint32_t i : order) sorted.push_back(sheets[i]);
   sheets = std::move(sorted);
-  for (const Sheet& sheet : sheets) sheets_->area += sheet.area;
+  for (const LeafSheet& sheet : sheets) sheets_->area += sheet.area;
   charts_.clear();
   return std::move(sheets_);
 }

@@ -16,7 +16,7 @@ namespace leafhull {
 
 /// The outline of leaves in two dimensions, and what of it is visible. Leaves that show the same
 /// part of a texture, or have one shape, share a chart.
-struct Chart {
+struct LeafChart {
   std::vector<std::array<Vec2d, 3>> triangles;
   std::shared_ptr<const AlphaMask> mask;  ///< of the texture space they lie in; none: all visible
   std::vector<double> visible;            ///< the share of each triangle
@@ -24,7 +24,7 @@ struct Chart {
 };
 
 /// A leaf: its chart, placed by position = origin + across x + along y, and its kernel's frame.
-struct Sheet {
+struct LeafSheet {
   Vec3d origin;
   Vec3d across, along;
   double area = 0;  ///< that is visible, one side of it, model units squared; > 0
@@ -37,8 +37,8 @@ struct Sheet {
 
 /// The leaves of a tree as visible area, in an order that depends on the geometry alone.
 struct LeafSheets {
-  std::vector<Chart> charts;
-  std::vector<Sheet> sheets;
+  std::vector<LeafChart> charts;
+  std::vector<LeafSheet> sheets;
   std::size_t invisible = 0;  ///< leaves that have no visible area
   double area = 0;            ///< of all sheets
 };

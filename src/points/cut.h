@@ -6,8 +6,6 @@
 #include <span>
 #include <vector>
 
-#include "leafhull/vec.h"
-
 namespace leafhull {
 
 /// A part of a flat shape.
@@ -24,10 +22,5 @@ struct FlatPart {
 /// @param samples points of equal area, in an order of the shape's own; not empty.
 /// @param count at least 1; fewer parts come back where there are fewer samples.
 std::vector<FlatPart> cut_evenly(std::span<const Eigen::Vector2d> samples, std::size_t count);
-
-/// Points of equal area on what is visible of a chart, at least `least` where it has any extent:
-/// those of a square grid over its box that lie in one of its triangles.
-struct Chart;
-std::vector<Vec2d> even_samples(const Chart& chart, std::size_t least);
 
 }  // namespace leafhull

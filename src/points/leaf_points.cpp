@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "points/leaf_points.h"
 
-#include <algorithm>
-#include <cmath>
 #include <cstdint>
-#include <cstdio>
-#include <string>
+#include <tuple>
+#include <utility>
 
 #include "leafhull/error.h"
 #include "leaves/order.h"

@@ -14,6 +14,7 @@
 #include "leafhull/error.h"
 #include "points/cut.h"
 #include "points/ellipse_of.h"
+#include "points/even_samples.h"
 #include "points/leaf_points.h"
 
 namespace leafhull {
@@ -31,7 +32,7 @@ constexpr double kLongest = 2;
 Eigen::Vector3d to_eigen(const Vec3d& v) { return {v.x, v.y, v.z}; }
 
 /// Into how many parts a leaf is cut. Rounding does not make one more.
-double parts_of(const Sheet& sheet, double spacing) {
+double parts_of(const LeafSheet& sheet, double spacing) {
   const double by_area = std::ceil(sheet.area / (spacing * spacing) * (1 - 1e-9));
   const double length = kLengthOverRadius * static_cast<double>(sheet.radius_major);
   return std::max({1.0, by_area, std::ceil(length / (kLongest * spacing))});
@@ -45,7 +46,7 @@ struct Cut {
   int shear, log_height;  // in steps
   auto operator<=>(const Cut&) const = default;
 
-  static Cut of(const Sheet& sheet, std::size_t count) {
+  static Cut of(const LeafSheet& sheet, std::size_t count) {
     const Vec3d x = sheet.across, y = sheet.along;
     const double width = length(x), skew = dot(x, y) / width;
     const double height = std::sqrt(std::max(dot(y, y) - skew * skew, 0.0));
@@ -65,7 +66,7 @@ struct Cut {
 };
 
 /// Parts in the chart's own coordinates.
-std::vector<FlatPart> cut_chart(const Chart& chart, const Cut& cut) {
+std::vector<FlatPart> cut_chart(const LeafChart& chart, const Cut& cut) {
   const Eigen::Matrix2d to_plane = cut.to_plane();
   std::vector<Eigen::Vector2d> samples;
   for (const Vec2d p : even_samples(chart, cut.count * kSamplesPerPart)) {
@@ -80,12 +81,12 @@ std::vector<FlatPart> cut_chart(const Chart& chart, const Cut& cut) {
   return parts;
 }
 
-LeafPoint whole(const Sheet& sheet, const Chart& chart) {
+LeafPoint whole(const LeafSheet& sheet, const LeafChart& chart) {
   return {sheet.at(chart.centre), sheet.normal,       sheet.major,
           sheet.radius_major,     sheet.radius_minor, sheet.area};
 }
 
-LeafPoint placed(const FlatPart& part, const Sheet& sheet, double spacing) {
+LeafPoint placed(const FlatPart& part, const LeafSheet& sheet, double spacing) {
   Eigen::Matrix<double, 3, 2> axes;
   axes << to_eigen(sheet.across), to_eigen(sheet.along);
   const Eigen::Matrix3d moments = axes * part.moments * axes.transpose();
@@ -99,7 +100,7 @@ LeafPoint placed(const FlatPart& part, const Sheet& sheet, double spacing) {
 std::vector<LeafPoint> place_parts(const LeafSheets& sheets, double spacing) {
   double all = 0;
   std::map<Cut, std::vector<FlatPart>> cuts;
-  for (const Sheet& sheet : sheets.sheets) {
+  for (const LeafSheet& sheet : sheets.sheets) {
     const double count = parts_of(sheet, spacing);
     if (count > 1) all += count;
     if (!(all <= kMostParts)) continue;
@@ -121,7 +122,7 @@ std::vector<LeafPoint> place_parts(const LeafSheets& sheets, double spacing) {
 
   std::vector<LeafPoint> points;
   points.reserve(sheets.sheets.size() + static_cast<std::size_t>(all));
-  for (const Sheet& sheet : sheets.sheets) {
+  for (const LeafSheet& sheet : sheets.sheets) {
     const double count = parts_of(sheet, spacing);
     if (count == 1) {
       points.push_back(whole(sheet, sheets.charts[sheet.chart]));

@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <span>
 
-#include "points/cut.h"
+#include "points/even_samples.h"
 
 namespace leafhull {
 namespace {
@@ -28,7 +28,7 @@ struct Taken {
 std::vector<std::size_t> leaves_in(const LeafSheets& sheets, const Box& crown) {
   std::vector<std::size_t> within, all;
   for (std::size_t i = 0; i < sheets.sheets.size(); ++i) {
-    const Sheet& sheet = sheets.sheets[i];
+    const LeafSheet& sheet = sheets.sheets[i];
     all.push_back(i);
     if (crown.contains(sheet.at(sheets.charts[sheet.chart].centre))) within.push_back(i);
   }
@@ -74,7 +74,7 @@ std::vector<Vec3d> samples_of(const LeafSheets& sheets, const Box& crown) {
   std::vector<Vec3d> samples;
   samples.reserve(kSamples);
   for (const Taken& t : taken) {
-    const Sheet& sheet = sheets.sheets[t.sheet];
+    const LeafSheet& sheet = sheets.sheets[t.sheet];
     const std::vector<Vec2d>& on_chart = places[sheet.chart];
     for (std::size_t i = t.first; i < t.end; ++i) {
       // How far into the leaf's own area the sample lies.

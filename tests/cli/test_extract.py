@@ -43,7 +43,8 @@ class Extract(CommandTest):
         self.assertGreater(stages, seconds["total"] * 0.8)
 
     def test_summary(self):
-        result = self.succeed("extract", self.tree, "-o", self.shape, *DRAFT)
+        joined = (*DRAFT, "--radius-max", "12")  # of fewer than 50 pieces, which would be said
+        result = self.succeed("extract", self.tree, "-o", self.shape, *joined)
         self.assertEqual(len(result.stderr.splitlines()), 1, result.stderr)
         for word in ("vertices", "triangles", "component", "T = ", "shape.glb"):
             self.assertIn(word, result.stderr)
@@ -55,12 +56,15 @@ class Extract(CommandTest):
 
     def test_styles(self):
         expected = {
-            "painterly": ("controlled", 2.5, 0.8, 0.92),
-            "thin": ("controlled", 1.4, 0.7, None),
-            "fat": ("controlled", 1.6, 1.0, None),
-            "luft-deussen": ("isotropic", 1.5, None, None),
+            "painterly": ("controlled", 3.5, 0.8, 0.98),
+            "thin": ("controlled", 1.4, 0.7, 0.85),
+            "fat": ("controlled", 5, 1.0, 0.99),
+            "previous": ("isotropic", 2.5, None, 0.95),
+            "paper-thin": ("controlled", 1.4, 0.7, None),
+            "paper-fat": ("controlled", 1.6, 1.0, None),
+            "paper-previous": ("isotropic", 1.5, None, None),
         }
-        thresholds = {"thin": 2, "fat": 2, "luft-deussen": 1.5}
+        thresholds = {"paper-thin": 2, "paper-fat": 2, "paper-previous": 1.5}
         for style, (method, radius, flatness, coverage) in expected.items():
             _, _, report = self.extract(self.tree, "--style", style, *DRAFT)
             parameters = report["parameters"]
@@ -71,11 +75,15 @@ class Extract(CommandTest):
             self.assertIsNone(parameters["threshold_percent"])
             if flatness:
                 self.assertEqual(parameters["flatness"], flatness)
+            points = "vertices" if style in thresholds else "area"
+            self.assertEqual(parameters["points"], points)
             if style in thresholds:
                 self.assertEqual(parameters["threshold"], thresholds[style])
+        _, _, report = self.extract(self.tree, "--style", "luft-deussen", *DRAFT)
+        self.assertEqual(report["parameters"]["style"], "paper-previous", "the old name")
 
     def test_options_in_any_order(self):
-        pairs = [("--style", "thin"), ("--threshold", "30%"), ("--radius-max", "3")]
+        pairs = [("--style", "paper-thin"), ("--threshold", "30%"), ("--radius-max", "3")]
         results = [
             self.extract(self.tree, *DRAFT, *itertools.chain(*order))
             for order in itertools.permutations(pairs)
@@ -127,7 +135,7 @@ class Extract(CommandTest):
 
     def test_far_from_the_origin_is_the_same_shape(self):
         shift = 10000.0  # a whole number of voxels: the same samples
-        flags = ("--voxel-size", "0.125")
+        flags = ("--voxel-size", "0.125", "--points", "vertices")
         positions, triangles = glb.cards()
         near, _, near_report = self.extract(self.tree, *flags)
         moved = [[x + shift, y, z] for x, y, z in positions]

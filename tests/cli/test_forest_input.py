@@ -61,7 +61,7 @@ class BadScenes(ForestTest):
         scene = self.stand(*["ash.glb,0,0,0"] * 3, "ash.glb,30,0,0")
         single = self.folder / "all.ply"
         single.write_text("mine")
-        flags = ("--style", "thin", "--coverage", "0.2", "--control-scope", "scene")
+        flags = ("--style", "paper-thin", "--coverage", "0.2", "--control-scope", "scene")
         self.refuse(6, ["empty", "--min-component"], scene, *COARSE, *flags,
                     "--min-component", "1", "--single", single)  # fmt: skip
         self.assertEqual(single.read_text(), "mine")
@@ -146,7 +146,7 @@ class OddScenes(ForestTest):
         far = 27000 * 128 * 0.3  # whole tiles, so that each has the same surface
         scene = self.stand("ash.glb,0,0,0", f"ash.glb,{far},0,0", f"ash.glb,0,0,{-far}")
         begin = time.monotonic()
-        self.welded(scene, "--levels", "2", "--style", "thin", "--threshold", "0.3")
+        self.welded(scene, "--levels", "2", "--style", "paper-thin", "--threshold", "0.3")
         self.assertLess(time.monotonic() - begin, 60)
         clouds = {}
         for tile in tiles_of(self.out / "forest").values():
@@ -175,7 +175,7 @@ class OddScenes(ForestTest):
 
     def test_two_trees_in_one_place(self):
         for scope in ("model", "scene"):
-            flags = ("--control-scope", scope, "--style", "thin", "--threshold", "0.5")
+            flags = ("--control-scope", scope, "--style", "paper-thin", "--threshold", "0.5")
             one = self.welded(self.stand("oak.glb,5,5,5"), *flags)
             two = self.welded(self.stand("oak.glb,5,5,5", "oak.glb,5,5,5"), *flags)
             three = self.welded(self.stand(*["oak.glb,5,5,5"] * 3), *flags)
@@ -254,7 +254,7 @@ class OddScenes(ForestTest):
 
         def canopy(*axes):
             scene = self.gltf_scene([matrix(*axes, (6, 6, 6))])
-            return self.welded(scene, "--voxel-size", "0.05", "--style", "thin", "--threshold", "0.3")
+            return self.welded(scene, "--voxel-size", "0.05", "--style", "paper-thin", "--threshold", "0.3")
 
         plain = canopy((1, 0, 0), (0, 1, 0), (0, 0, 1))
         # The lattice is not mirrored with the tree, so that its vertices are others.

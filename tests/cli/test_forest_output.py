@@ -107,7 +107,7 @@ class Instances(ForestTest):
     def test_models_without_a_surface_are_warned_about(self):
         scene = self.stand("ash.glb,0,0,0", "oak.glb,9,0,0")
         self.input("oak.glb", glb.tree(*glb.cards(4, 8.0, half=0.02)))
-        flags = ("--merge", "none", *COARSE, "--threshold", "2")
+        flags = ("--merge", "none", *COARSE, "--points", "vertices", "--threshold", "2")
         result = self.forest(scene, "apart", *flags)
         self.assertRegex(result.stderr, r"warning: the model ash has no surface")
         self.assertEqual(list(self.instances(self.out / "apart")), ["oak"])
@@ -187,7 +187,7 @@ class Reports(ForestTest):
         scene = self.scatter(60)
         report = self.folder / "report.json"
         flags = (*COARSE, "--tile", "32", "--levels", "2", "--min-component", "0",
-                 "--report", report)  # fmt: skip
+                 "--report", report, "--points", "vertices")  # fmt: skip
         self.forest(scene, "forest", *flags)
         page = json.loads(report.read_text())
         self.assertEqual(page["schema"], "leafhull-forest-report/1")
@@ -198,7 +198,7 @@ class Reports(ForestTest):
         rows = page["tiles"]
         self.assertEqual(len(rows), page["counts"]["tiles"])
         self.assertEqual(
-            sum(row["leaf_vertices"] for row in rows if row["level"] == 0), leaves
+            sum(row["leaf_points"] for row in rows if row["level"] == 0), leaves
         )
         self.assertEqual(
             sum(row["triangles"] for row in rows), page["counts"]["mesh_triangles"]

@@ -238,8 +238,8 @@ class Folders(ForestTest):
                 (["levels is 1 there and 2 here"], (*TILED, "--levels", "2")),
                 (['control_scope is "model" there and "scene" here'],
                  (*TILED, "--control-scope", "scene")),
-                (['options.style is "painterly" there and "thin" here'],
-                 (*TILED, "--style", "thin")),
+                (['options.style is "painterly" there and "paper-thin" here'],
+                 (*TILED, "--style", "paper-thin")),
             ):  # fmt: skip
                 with self.subTest(words, finished=finished):
                     words = [*words, "another forest", "--restart"]

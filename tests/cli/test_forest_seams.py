@@ -46,7 +46,7 @@ class Seams(ForestTest):
         self.same_for_all_tiles("--style", "painterly", "--min-component", "0.02")
 
     def test_thin(self):
-        self.same_for_all_tiles("--style", "thin", "--threshold", "0.5")
+        self.same_for_all_tiles("--style", "paper-thin", "--threshold", "0.5")
 
     def test_kernels_that_reach_far_over_seams(self):
         """Farther than the bricks around a tile."""
@@ -55,7 +55,7 @@ class Seams(ForestTest):
         self.same_for_all_tiles(*far, "--control-scope", "scene", "--threshold", "0.3")
 
     def test_statistics_of_the_scene(self):
-        self.same_for_all_tiles("--control-scope", "scene", "--style", "thin", "--threshold", "0.5")
+        self.same_for_all_tiles("--control-scope", "scene", "--style", "paper-thin", "--threshold", "0.5")
 
     def test_small_pieces_go_over_seams_too(self):
         flags = ("--style", "painterly")
@@ -89,7 +89,7 @@ class Alone(ForestTest):
         self.input("big.glb", ASH.read_bytes())
         for tree, voxel, *flags in (
             ("oak.glb", 0.15),
-            ("oak.glb", 0.15, "--style", "thin", "--threshold", "0.5"),
+            ("oak.glb", 0.15, "--style", "paper-thin", "--threshold", "0.5"),
             ("oak.glb", 0.15, "--coverage", "0.8", "--min-component", "0.05"),
             ("oak.glb", 0.15, "--threshold-percent", "60", "--method", "isotropic"),
             ("big.glb", 1.5),

@@ -58,9 +58,9 @@ class Pictures(Render):
         self.assertGreater(sum(map(is_green, seen)), 0.9 * len(seen), "the crown hides the trunk")
 
     def test_shape_options_count(self):
-        thin = self.bytes("--style", "thin", *MESH)
+        thin = self.bytes("--style", "paper-thin", *MESH)
         self.assertNotEqual(self.bytes("--style", "fat", *MESH), thin)
-        self.assertNotEqual(self.bytes("--style", "thin"), self.bytes("--style", "fat"))
+        self.assertNotEqual(self.bytes("--style", "paper-thin"), self.bytes("--style", "fat"))
 
     def test_buffers_as_exr(self):
         exr = self.out / "buffers.exr"
@@ -166,7 +166,7 @@ class Subjects(Render):
     def test_a_shape_has_no_density(self):
         self.refuse(["--surface direct", "density"], "--surface", "direct", subject=self.glb)
         self.refuse(["--figure17", "tree"], "--figure17", subject=self.glb)
-        result = self.render("--style", "thin", subject=self.glb)
+        result = self.render("--style", "paper-thin", subject=self.glb)
         self.assertIn("warning: --style has no effect", result.stderr)
 
     def test_a_density(self):

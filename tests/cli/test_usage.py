@@ -38,7 +38,7 @@ class Usage(CommandTest):
         self.refuse(["-x", "--help"], "-x")
 
     def test_unknown_names_list_the_valid_ones(self):
-        self.refuse(["Did you mean painterly?", "thin, fat, luft-deussen"], "--style", "painterli")
+        self.refuse(["Did you mean painterly?", "thin, fat, previous, paper-thin"], "--style", "painterli")
         self.refuse(["isotropic, uncontrolled, controlled"], "--method", "q")
         self.refuse(["crown, leaf, model"], "--radius-unit", "mm")
         self.refuse(["stddev, variance"], "--spread", "sigma")

@@ -42,15 +42,17 @@ VoxelCounts check_metrics(const Extraction& extraction, const std::vector<Kernel
   std::vector<double> exact, sampled;
   for (const Density& density : sum_at(centres, kernels, falloff)) exact.push_back(density.value);
   for (const Point& c : centres) sampled.push_back(lattice.trilinear(c));
-  const Count off_site = count_below(exact, threshold);
   const auto& metrics = extraction.report.at("metrics");
-  check_coverage(extraction, off_site, table);
   table.compare("inside voxels", metrics.at("inside_voxels"), voxels.inside);
   table.compare("on voxels", metrics.at("on_voxels"), voxels.on);
-  table.compare("dilated voxels", metrics.at("dilated_voxels"), voxels.dilated);
-  table.compare("off-site vertices, exact", metrics.at("off_site_exact"), off_site);
-  table.compare("off-site vertices, sampled", metrics.at("off_site_sampled"),
-                count_below(sampled, threshold));
+  if (!extraction.by_area()) {  // else they are of samples, which the kernels do not tell
+    const Count off_site = count_below(exact, threshold);
+    check_coverage(extraction, off_site, table);
+    table.compare("dilated voxels", metrics.at("dilated_voxels"), voxels.dilated);
+    table.compare("off-site vertices, exact", metrics.at("off_site_exact"), off_site);
+    table.compare("off-site vertices, sampled", metrics.at("off_site_sampled"),
+                  count_below(sampled, threshold));
+  }
   table.compare("evaluated voxels", extraction.report.at("counts").at("evaluated_voxels"),
                 double(voxels.samples_beside_surface), double(voxels.samples_beside_surface),
                 HUGE_VAL);

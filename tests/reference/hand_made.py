@@ -102,12 +102,13 @@ def make_report(method, kernels, radius_max, threshold, inside, on, dilated, **c
                   for i in range(3))
     return {
         "parameters": {
-            "method": method, "threshold": threshold, "threshold_percent": None, "coverage": None,
+            "points": "vertices", "method": method, "threshold": threshold,
+            "threshold_percent": None, "coverage": None,
             "radius_max": radius_max, "radius_unit": "model", "radius_max_model": radius_max,
             "flatness": 0.5, "falloff": 2, "spread": "stddev", "density": "exact", "band_low": 0,
             "band_high": 2, "min_component": 0, "adaptivity": 0, "snap": True,
             "resolution": round((longest + 2 * radius_max) / H), "voxel_size": H},
-        "counts": {"leaf_vertices": len(kernels), "evaluated_voxels": 100000, "mesh_vertices": 0,
+        "counts": {"leaf_points": len(kernels), "evaluated_voxels": 100000, "mesh_vertices": 0,
                    "mesh_triangles": 0, "components": 1},
         "density": {"mean": mean, "variance": variance, "p1": mean,
                     "p2": mean + 2 * math.sqrt(variance)},

@@ -67,7 +67,7 @@ METRIC_ROWS = {("metrics", "inside_voxels"): "inside voxels",
                ("metrics", "dilated_voxels"): "dilated voxels",
                ("metrics", "off_site_exact"): "off-site vertices, exact",
                ("metrics", "off_site_sampled"): "off-site vertices, sampled",
-               ("counts", "leaf_vertices"): "leaf vertices",
+               ("counts", "leaf_points"): "leaf points",
                ("density", "mean"): "density mean", ("density", "variance"): "density variance",
                ("density", "p1"): "p1", ("density", "p2"): "p2"}
 

@@ -70,7 +70,7 @@ TEST(ForestReport, HasARowForEachTile) {
                             {"x", -2},
                             {"y", 3},
                             {"z", 4},
-                            {"leaf_vertices", 5},
+                            {"leaf_points", 5},
                             {"gathered", 6},
                             {"evaluated_voxels", 7},
                             {"vertices", 8},

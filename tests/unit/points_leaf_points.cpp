@@ -9,7 +9,6 @@
 #include "leafhull/error.h"
 #include "leaves/sheets.h"
 #include "leaves_models.h"
-#include "points/cut.h"
 #include "points/leaf_points.h"
 
 namespace leafhull {
@@ -175,7 +174,7 @@ TEST(LeafPoints, OfManyNeedlesAreBoundedByTheirVolume) {
   // Joining keeps the centre of all.
   Vec3d centre, expected;
   for (const LeafPoint& p : points.points) centre = centre + p.position * p.area;
-  for (const Sheet& sheet : leaves.sheets->sheets) {
+  for (const LeafSheet& sheet : leaves.sheets->sheets) {
     expected = expected + sheet.at(leaves.sheets->charts[sheet.chart].centre) * sheet.area;
   }
   EXPECT_LT(length(centre - expected) / leaves.area, 1e-6);
