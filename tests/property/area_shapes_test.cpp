@@ -1,0 +1,307 @@
+// SPDX-License-Identifier: Apache-2.0
+// What must hold of whole shapes made of leaf area: the same however leaves are tessellated, masses
+// and not crumbs, and the same bytes however they are computed.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "forest/compute_tile.h"
+#include "forest/plan.h"
+#include "leafhull/series.h"
+#include "leafhull/shape.h"
+#include "property/area_measures.h"
+#include "property/area_trees.h"
+
+namespace leafhull {
+namespace {
+
+using test::Corners;
+using test::volume;
+
+Device& device() {
+  static Device device({});
+  return device;
+}
+
+Options at(Preset preset) {
+  Options options;
+  options.preset = preset;
+  return options;
+}
+
+Shape shape_of(const TreeModel& tree, const Options& options) {
+  return extract(find_leaves(tree, {}), options, device());
+}
+
+TreeModel ash() { return read_tree(LEAFHULL_EXAMPLES "/ash.glb"); }
+
+struct Kind {
+  const char* name;
+  TreeModel (*tree)();
+};
+const Kind kKinds[] = {{"cards", [] { return test::card_tree(); }},
+                       {"needles", test::needle_tree},
+                       {"sphere", test::closed_sphere},
+                       {"box", test::closed_box},
+                       {"sheet", test::curved_sheet},
+                       {"billboard", test::crossed_billboard},
+                       {"ash", ash}};
+
+class Tessellation : public testing::TestWithParam<Kind> {};
+INSTANTIATE_TEST_SUITE_P(Trees, Tessellation,
+                         testing::Values(kKinds[0], kKinds[2], kKinds[3], kKinds[4]),
+                         [](const auto& kind) { return std::string(kind.param.name); });
+
+TEST_P(Tessellation, OfLeavesDoesNotShow) {
+  const TreeModel tree = GetParam().tree();
+  const Options options = at(Preset::draft);
+  const Shape plain = shape_of(tree, options);
+  const auto fine = [](const Primitive& p) { return test::in_quarters(p); };
+  const auto finer = [](const Primitive& p) { return test::in_quarters(test::in_quarters(p)); };
+  const auto fine_split = [](const Primitive& p) {
+    return test::with_split_vertices(test::in_quarters(p));
+  };
+  const std::pair<const char*, TreeModel> others[] = {
+      {"in four", test::with_primitives(tree, fine)},
+      {"in sixteen", test::with_primitives(tree, finer)},
+      {"split vertices", test::with_primitives(tree, test::with_split_vertices)},
+      {"in four, split", test::with_primitives(tree, fine_split)},
+      {"other diagonals", test::with_primitives(tree, test::along_the_other_diagonal)},
+  };
+  for (const auto& [how, other] : others) {
+    SCOPED_TRACE(how);
+    const Shape shape = shape_of(other, options);
+    const double h = plain.report.voxel_size;
+    EXPECT_NEAR(volume(shape.mesh) / volume(plain.mesh), 1, 0.01);
+    EXPECT_LT(test::distance_between(shape.mesh, plain.mesh, 2 * h), 0.5 * h);
+    EXPECT_LT(test::distance_between(plain.mesh, shape.mesh, 2 * h), 0.5 * h);
+  }
+}
+
+class Mass : public testing::TestWithParam<Kind> {};
+INSTANTIATE_TEST_SUITE_P(Trees, Mass, testing::ValuesIn(kKinds),
+                         [](const auto& kind) { return std::string(kind.param.name); });
+
+TEST_P(Mass, IsOfFewPiecesAndFillsItsBox) {
+  const LeafSet leaves = find_leaves(GetParam().tree(), {});
+  const Shape shape = extract(leaves, {}, device());
+  const Vec3d size = leaves.crown.size();
+  EXPECT_LE(shape.report.counts.components, 20u);
+  EXPECT_GE(volume(shape.mesh) / (size.x * size.y * size.z), 0.03);
+}
+
+TEST(Mass, OfACrossedBillboardIsItsVisiblePart) {
+  const Shape shape = shape_of(test::crossed_billboard(), {});
+  EXPECT_EQ(shape.report.counts.components, 1u);
+  Box box;
+  for (const Vec3f p : shape.mesh.positions) box.include(Vec3d(p));
+  // Visible: the mask's ellipse.
+  const double r = shape.report.radius_max_model;
+  for (const auto& [side, visible] : {std::pair{-box.low.x, 0.8},
+                                      {box.high.x, 0.6},
+                                      {-box.low.z, 0.8},
+                                      {box.high.z, 0.6},
+                                      {-box.low.y, 0.9},
+                                      {box.high.y, 0.7}}) {
+    EXPECT_NEAR(side, visible, r);
+  }
+}
+
+int euler_characteristic(const Mesh& mesh) {
+  return static_cast<int>(mesh.positions.size()) - static_cast<int>(mesh.triangles.size()) / 2;
+}
+
+TEST(Mass, OfAClosedCrownIsSolid) {
+  for (const TreeModel& tree : {test::closed_sphere(), test::closed_box()}) {
+    std::vector<Corners> walls;
+    const Primitive& p = tree.primitives[0];
+    for (const auto& [a, b, c] : p.triangles) {
+      walls.push_back({Vec3d(p.positions[a]), Vec3d(p.positions[b]), Vec3d(p.positions[c])});
+    }
+    const Shape shape = shape_of(tree, {});
+    EXPECT_EQ(shape.report.counts.components, 1u);
+    EXPECT_EQ(euler_characteristic(shape.mesh), 2);
+    // The solid, and a wall outside of it that is thinner than R_max.
+    double area = 0;
+    for (const auto& [a, b, c] : walls) area += length(cross(b - a, c - a)) / 2;
+    EXPECT_GT(volume(shape.mesh), volume(walls));
+    EXPECT_LT(volume(shape.mesh), volume(walls) + 0.6 * area * shape.report.radius_max_model);
+  }
+}
+
+void expect_same(const Shape& a, const Shape& b) {
+  EXPECT_EQ(a.mesh.positions, b.mesh.positions);
+  EXPECT_EQ(a.mesh.normals, b.mesh.normals);
+  EXPECT_EQ(a.mesh.triangles, b.mesh.triangles);
+  EXPECT_EQ(a.isotropic_density, b.isotropic_density);
+  EXPECT_EQ(a.report.threshold, b.report.threshold);
+  EXPECT_EQ(a.report.metrics.inside_voxels, b.report.metrics.inside_voxels);
+  EXPECT_EQ(a.report.metrics.dilated_voxels, b.report.metrics.dilated_voxels);
+  EXPECT_EQ(a.report.metrics.off_site_sampled, b.report.metrics.off_site_sampled);
+}
+
+TEST(AreaBytes, AreTheSameDenseOnAnyThreadsAndAgain) {
+  Device one({.choice = "", .threads = 1, .variant = ""});
+  for (const TreeModel& tree : {ash(), test::card_tree(), test::closed_sphere()}) {
+    const LeafSet leaves = find_leaves(tree, {});
+    Options options = at(Preset::draft);
+    const Shape shape = extract(leaves, options, device());
+    EXPECT_FALSE(shape.mesh.triangles.empty());
+    expect_same(shape_of(tree, options), shape);
+    expect_same(extract(leaves, options, one), shape);
+    options.dense = true;
+    const Shape dense = extract(leaves, options, device());
+    EXPECT_GT(dense.report.counts.evaluated_voxels, shape.report.counts.evaluated_voxels);
+    expect_same(dense, shape);
+  }
+}
+
+TEST(AreaSeries, SaysOfEachEntryWhatAnExtractionSays) {
+  const LeafSet leaves = find_leaves(test::card_tree(), {});
+  std::vector<Options> series;
+  const auto add = [&](auto&& change) {
+    series.push_back(at(Preset::draft));
+    change(series.back());
+  };
+  add([](Options&) {});
+  add([](Options& o) { o.point_spacing = 0.25; });
+  add([](Options& o) { o.points = PointSource::vertices; });
+  add([](Options& o) { o.radius_max = 4; });
+  add([](Options& o) { o.band_high = 1; });
+  add([](Options& o) { o.band_low = -1; });
+  add([](Options& o) { o.flatness = 0.3; });
+  add([](Options& o) { o.falloff = 3; });
+  add([](Options& o) { o.hollows = Hollows::keep; });
+  std::vector<std::array<double, 9>> seen(series.size());
+  const auto numbers = [](const Report& r) {
+    const auto number = [](std::uint64_t count) { return static_cast<double>(count); };
+    return std::array{r.threshold,
+                      r.density.p2,
+                      r.covered,
+                      number(r.counts.leaf_points),
+                      number(r.counts.mesh_triangles),
+                      number(r.metrics.inside_voxels),
+                      number(r.metrics.on_voxels),
+                      number(r.metrics.dilated_voxels),
+                      number(r.metrics.off_site_sampled)};
+  };
+  extract_series(leaves, series, device(), [&](std::size_t index, SeriesEntry&& entry) {
+    SCOPED_TRACE(index);
+    EXPECT_EQ(entry.failure, "");
+    seen[index] = numbers(entry.report);
+    EXPECT_EQ(seen[index], numbers(extract(leaves, series[index], device()).report));
+    return true;
+  });
+  for (std::size_t i = 1; i < seen.size(); ++i) EXPECT_NE(seen[i], seen[0]) << i;
+}
+
+PlacedTree placed(Vec3d position, double yaw, double scale) {
+  const auto c = static_cast<float>(scale * std::cos(yaw)),
+             s = static_cast<float>(scale * std::sin(yaw));
+  return {position, {c, 0, s, 0, static_cast<float>(scale), 0, -s, 0, c}, 0};
+}
+
+ForestLevel level_of(const Scene& scene, int number, const Options& options, double voxel_size) {
+  const std::vector<LeafSet> models{find_leaves(test::card_tree(), {})};
+  const std::vector<ModelUse> uses = model_uses(scene);
+  const ForestLevel finest = prepare_level(0, models, uses, options, voxel_size, nullptr, device());
+  return number == 0 ? finest
+                     : prepare_level(number, models, uses, options, voxel_size, &finest, device());
+}
+
+/// The triangles of all tiles, in world coordinates.
+std::vector<Corners> canopy(const Scene& scene, const ForestLevel& level, int edge) {
+  std::vector<Corners> all;
+  const TilePlan plan(scene, level, edge);
+  for (std::size_t t = 0; t < plan.size(); ++t) {
+    const TileTask task{plan.tiles()[t], edge, plan.trees(t)};
+    const std::vector<Corners> part =
+        test::corners_of(compute_tile(scene, level, task, device()).mesh);
+    all.insert(all.end(), part.begin(), part.end());
+  }
+  return all;
+}
+
+Options of_a_canopy() {
+  ForestOptions forest;
+  forest.shape.min_component = 0;  // small pieces over seams are known once all tiles are
+  return resolved_shape(forest);
+}
+
+/// Lattice cells whose corners all lie within the triangles.
+std::uint64_t cells_inside(const std::vector<Corners>& triangles, double h) {
+  const test::Solid solid(triangles, 2 * h);
+  Box box;
+  for (const auto& corners : triangles) {
+    for (const Vec3d& p : corners) box.include(p);
+  }
+  const auto cell = [h](double v) { return static_cast<int>(std::floor(v / h)); };
+  std::set<std::array<int, 3>> samples;
+  for (int z = cell(box.low.z); z <= cell(box.high.z) + 1; ++z) {
+    for (int y = cell(box.low.y); y <= cell(box.high.y) + 1; ++y) {
+      for (int x = cell(box.low.x); x <= cell(box.high.x) + 1; ++x) {
+        if (solid.holds(Vec3d(x, y, z) * h)) samples.insert(samples.end(), {z, y, x});
+      }
+    }
+  }
+  std::uint64_t count = 0;
+  for (const auto& [z, y, x] : samples) {
+    bool all = true;
+    for (int i = 1; i < 8; ++i)
+      all = all && samples.contains({z + (i >> 2), y + (i >> 1 & 1), x + (i & 1)});
+    count += all;
+  }
+  return count;
+}
+
+TEST(AreaForest, OfATreeTwiceAsLargeIsTheTreeInVoxels) {
+  const LeafSet leaves = find_leaves(test::card_tree(), {});
+  Options options = of_a_canopy();
+  options.preset.reset(), options.resolution.reset();
+  const double h = options.voxel_size.emplace(leaves.crown.longest_side() / 60);
+  const Shape alone = extract(leaves, options, device());
+  Scene scene;
+  scene.models.resize(1);
+  scene.trees = {placed({}, 0, 2)};
+  options.voxel_size = 2 * h;
+  const ForestLevel level = level_of(scene, 0, options, 2 * h);
+  EXPECT_NEAR(level.threshold / alone.report.threshold, 1, 1e-4);
+  const std::vector<Corners> triangles = canopy(scene, level, 64);
+  EXPECT_NEAR(volume(triangles) / std::pow(2 * h, 3) / (volume(alone.mesh) / std::pow(h, 3)), 1,
+              0.002);
+  EXPECT_NEAR(static_cast<double>(cells_inside(triangles, 2 * h)) /
+                  static_cast<double>(alone.report.metrics.inside_voxels),
+              1, 0.01);
+}
+
+TEST(AreaForest, DoesNotDependOnTheCut) {
+  Scene scene;
+  scene.models.resize(1);
+  scene.trees = {placed({0, 0, 0}, 0, 1), placed({3, 0.5, 1}, 2, 1.4), placed({1, 0, 4}, 4, 0.7)};
+  for (const int number : {0, 1}) {
+    const ForestLevel level = level_of(scene, number, of_a_canopy(), 0.08);
+    using Place = std::array<std::array<double, 3>, 3>;
+    const auto places = [&](int edge) {
+      std::multiset<Place> all;
+      for (const auto& [a, b, c] : canopy(scene, level, edge)) {
+        Place p{{{a.x, a.y, a.z}, {b.x, b.y, b.z}, {c.x, c.y, c.z}}};
+        std::rotate(p.begin(), std::ranges::min_element(p), p.end());
+        all.insert(p);
+      }
+      return all;
+    };
+    const auto whole = places(512);
+    EXPECT_GT(whole.size(), 5000u);
+    EXPECT_EQ(places(32), whole);
+    EXPECT_EQ(places(96), whole);
+  }
+}
+
+}  // namespace
+}  // namespace leafhull
