@@ -22,6 +22,20 @@ std::int64_t wrapped(std::int64_t i, std::int64_t size, Wrap wrap) {
   return phase < size ? phase : period - 1 - phase;
 }
 
+/// Between where a polygon in a row of texels has both the row's top and its bottom: texels there
+/// lie whole in it.
+std::pair<double, double> across(const ConvexPolygon& row, double top) {
+  double low[2] = {HUGE_VAL, HUGE_VAL}, high[2] = {-HUGE_VAL, -HUGE_VAL};
+  for (std::size_t i = 0; i < row.size(); ++i) {
+    for (int side = 0; side < 2; ++side) {
+      if (row[i].y != top + side) continue;
+      low[side] = std::min(low[side], row[i].x);
+      high[side] = std::max(high[side], row[i].x);
+    }
+  }
+  return {std::max(low[0], low[1]), std::min(high[0], high[1])};
+}
+
 /// First and last texel whose centre lies between two texture coordinates.
 std::pair<double, double> texel_range(double low, double high, int size) {
   return {std::ceil(low * size - 0.5), std::floor(high * size - 0.5)};
@@ -80,6 +94,7 @@ KeptPart AlphaMask::kept_part(const std::array<Vec2d, 3>& triangle) const {
   if (!((high.x - low.x) * (high.y - low.y) <= kMostTexels)) {
     return {static_cast<double>(kept_count_) / static_cast<double>(kept_.size()), middle};
   }
+  const double turn = whole.area > 0 ? 1 : -1;
   PolygonMoments kept;
   const auto first = [](double v) { return static_cast<std::int64_t>(std::floor(v)); };
   for (std::int64_t y = first(low.y); static_cast<double>(y) < high.y; ++y) {
@@ -87,10 +102,15 @@ KeptPart AlphaMask::kept_part(const std::array<Vec2d, 3>& triangle) const {
     const ConvexPolygon row = clip(all, &Vec2d::y, top, top + 1);
     if (row.empty()) continue;
     const auto [row_low, row_high] = extent(row);
+    const auto [whole_low, whole_high] = across(row, top);
     for (std::int64_t x = first(row_low.x); static_cast<double>(x) < row_high.x; ++x) {
       if (!keeps_texel(x, y)) continue;
       const auto left = static_cast<double>(x);
-      kept += moments_of(clip(row, &Vec2d::x, left, left + 1));
+      if (left >= whole_low && left + 1 <= whole_high) {
+        kept += {turn, {turn * (left + 0.5), turn * (top + 0.5)}};
+      } else {
+        kept += moments_of(clip(row, &Vec2d::x, left, left + 1));
+      }
     }
   }
   if (kept.area == 0) return {0, middle};

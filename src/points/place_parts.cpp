@@ -25,6 +25,7 @@ constexpr std::size_t kMostParts = 10'000'000;
 constexpr std::size_t kSamplesPerPart = 40;
 /// Steps, to a doubling, in which leaves' proportions are told apart.
 constexpr double kProportionSteps = 16;
+constexpr double kMostDoublings = 20;
 /// A strip of length L has R_u = L / sqrt 3; no part is longer than twice the spacing.
 const double kLengthOverRadius = std::sqrt(3.0);
 constexpr double kLongest = 2;
@@ -50,8 +51,10 @@ struct Cut {
     const Vec3d x = sheet.across, y = sheet.along;
     const double width = length(x), skew = dot(x, y) / width;
     const double height = std::sqrt(std::max(dot(y, y) - skew * skew, 0.0));
-    const auto steps = [](double v) {
-      return static_cast<int>(std::lround(std::clamp(kProportionSteps * v, -1e6, 1e6)));
+    const auto steps = [](double v) {  // of a sliver as of a leaf that is none
+      const double most = kMostDoublings * kProportionSteps;
+      if (!std::isfinite(v)) return 0;
+      return static_cast<int>(std::lround(std::clamp(kProportionSteps * v, -most, most)));
     };
     return {sheet.chart, count, steps(skew / height), steps(std::log2(height / width))};
   }
