@@ -54,7 +54,7 @@ class LeafCollector {
   /// Leaves whose texture should have told their ellipse and did not.
   std::size_t untextured() const { return untextured_; }
   /// The leaves as visible area.
-  std::shared_ptr<const LeafSheets> sheets() { return sheets_.finish(); }
+  std::shared_ptr<const LeafSheets> sheets(const Box& crown) { return sheets_.finish(crown); }
   /// Materials whose texture is cut away everywhere, by name.
   const std::vector<std::string>& hidden() const { return hidden_; }
 
@@ -242,7 +242,7 @@ LeafSet find_leaves(const TreeModel& tree, std::span<const Instance> instances,
   leaves.stray_leaves = crown.strays;
   if (crown.strays > 0) leaves.warnings.push_back(stray_warning(crown));
   sort_vertices(leaves);
-  leaves.sheets = collector.sheets();
+  leaves.sheets = collector.sheets(leaves.crown);
   leaves.area = leaves.sheets->area;
   if (const std::size_t invisible = leaves.sheets->invisible; invisible > 0) {
     leaves.warnings.push_back(invisible_warning(invisible));

@@ -25,7 +25,7 @@ std::uint64_t morton_code(const Vec3d& position, const Box& bounds) {
   const double side = bounds.longest_side();
   const Vec3d scaled = side > 0 ? (position - bounds.low) / side * kCells : Vec3d{};
   const auto cell = [](double x) {
-    return spread_bits(static_cast<std::uint64_t>(std::min(x, kCells - 1)));
+    return spread_bits(static_cast<std::uint64_t>(std::clamp(x, 0.0, kCells - 1)));
   };
   return cell(scaled.x) | cell(scaled.y) << 1 | cell(scaled.z) << 2;
 }

@@ -10,8 +10,8 @@
 
 namespace leafhull {
 
-/// The order of positions along a Morton curve through the box `bounds`, which holds them;
-/// `precedes` tells which of two comes first that have one place on the curve.
+/// The order of positions along a Morton curve through the box `bounds`; what lies beyond it counts
+/// as on its side. `precedes` tells which of two comes first that have one place on the curve.
 std::vector<std::uint32_t> morton_order(
     std::span<const Vec3d> positions, const Box& bounds,
     const std::function<bool(std::uint32_t, std::uint32_t)>& precedes);

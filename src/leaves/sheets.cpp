@@ -139,16 +139,14 @@ void SheetCollector::take(const LeafMesh& leaf, const LeafEllipse& ellipse,
                              static_cast<float>(scale * ellipse.minor.norm())});
 }
 
-std::shared_ptr<const LeafSheets> SheetCollector::finish() {
+std::shared_ptr<const LeafSheets> SheetCollector::finish(const Box& crown) {
   std::vector<LeafSheet>& sheets = sheets_->sheets;
   std::vector<Vec3d> centres;
   centres.reserve(sheets.size());
   for (const LeafSheet& sheet : sheets) {
     centres.push_back(sheet.at(sheets_->charts[sheet.chart].centre));
   }
-  Box bounds;
-  for (const Vec3d& centre : centres) bounds.include(centre);
-  const auto order = morton_order(centres, bounds, [&](std::uint32_t a, std::uint32_t b) {
+  const auto order = morton_order(centres, crown, [&](std::uint32_t a, std::uint32_t b) {
     return sheet_key(sheets[a]) < sheet_key(sheets[b]);
   });
   std::vector<LeafSheet> sorted;

@@ -50,8 +50,8 @@ class SheetCollector {
   void take(const LeafMesh& leaf, const LeafEllipse& ellipse, const TextureSource& texture,
             const Eigen::Vector3d& first, double scale);
 
-  /// All of them, sorted.
-  std::shared_ptr<const LeafSheets> finish();
+  /// All of them, sorted; `crown`: of the leaves but for strays, which are not to move others.
+  std::shared_ptr<const LeafSheets> finish(const Box& crown);
 
  private:
   using Triangles = std::vector<std::array<Vec2d, 3>>;

@@ -20,17 +20,13 @@ auto point_key(const LeafPoint& p) {
                     p.normal.z, p.major.x, p.major.y, p.major.z, p.radius_major, p.radius_minor);
 }
 
-void sort_points(std::vector<LeafPoint>& points) {
+void sort_points(std::vector<LeafPoint>& points, const Box& crown) {
   std::vector<Vec3d> positions;
   positions.reserve(points.size());
-  Box bounds;
-  for (const LeafPoint& point : points) {
-    positions.push_back(point.position);
-    bounds.include(point.position);
-  }
+  for (const LeafPoint& point : points) positions.push_back(point.position);
   std::vector<LeafPoint> sorted;
   sorted.reserve(points.size());
-  const auto order = morton_order(positions, bounds, [&](std::uint32_t a, std::uint32_t b) {
+  const auto order = morton_order(positions, crown, [&](std::uint32_t a, std::uint32_t b) {
     return point_key(points[a]) < point_key(points[b]);
   });
   for (const std::uint32_t i : order) sorted.push_back(points[i]);
@@ -63,7 +59,7 @@ LeafPoints area_points(const LeafSet& leaves, double spacing) {
   }
   LeafPoints result;
   result.points = join_in_cells(place_parts(sheets, spacing), spacing);
-  sort_points(result.points);
+  sort_points(result.points, leaves.crown);
   for (const LeafPoint& point : result.points) result.area += point.area;
   result.samples = samples_of(sheets, leaves.crown);
   return result;

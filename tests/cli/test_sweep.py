@@ -108,7 +108,7 @@ class Results(SweepTest):
             self.assertEqual(row["seconds"]["total"], float(line["seconds_total"]))
 
     def test_a_combination_without_a_surface_is_a_row(self):
-        result = self.run_sweep("--threshold", "1,1e6", *COARSE)
+        result = self.run_sweep("--threshold", "1,1e6", "--points", "vertices", *COARSE)
         self.assertIn("1 without a surface", result.stderr)
         some, none = self.table()
         self.assertEqual((some["empty"], none["empty"]), ("false", "true"))

@@ -121,7 +121,7 @@ TEST_P(Strays, AreNotInTheFrame) {
       covered += a->object[i] != render::Object::paper;
       other += a->object[i] != b->object[i];
     }
-    EXPECT_GT(covered, a->size() / 4);
+    EXPECT_GT(covered, a->size() / 6);
     EXPECT_LT(static_cast<double>(other), 0.02 * static_cast<double>(covered));
   }
 }

@@ -50,7 +50,7 @@ void expect_same(const Metrics& a, const Metrics& b) {
 }
 
 TEST(StudyTree, IsWhatSingleExtractionsAre) {
-  const LeafSet leaves = ball(9000, 0.2F);
+  const LeafSet leaves = ball(14000, 0.2F);
   std::vector<double> progress;
   const TreeStudy tree = study_tree(
       leaves, "ball", device(), [&](std::string_view, double done) { progress.push_back(done); });
