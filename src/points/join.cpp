@@ -18,8 +18,10 @@ namespace {
 
 /// Of spacing^2: a part below this area is joined to its neighbours.
 constexpr double kSmall = 0.25;
-/// And a cell above this is full: a flat sheet, however it cuts a cell, has less in it.
+/// And a cell above this is full, but for one with so few parts: a flat sheet whose parts happen to
+/// lie in its corners has as many in it, and joined they would show.
 constexpr double kFull = 3;
+constexpr std::ptrdiff_t kPartsOfASheet = 4;
 
 struct Entry {
   std::array<std::int64_t, 3> cell;
@@ -87,7 +89,8 @@ std::vector<LeafPoint> join_in_cells(std::vector<LeafPoint> parts, double spacin
     double area = 0;
     auto end = begin;
     for (; end != entries.end() && end->cell == begin->cell; ++end) area += parts[end->part].area;
-    const double most = area > kFull * square ? HUGE_VAL : kSmall * square;
+    const bool full = area > kFull * square && end - begin > kPartsOfASheet;
+    const double most = full ? HUGE_VAL : kSmall * square;
     Sum sum(parts[begin->part].position);
     for (; begin != end; ++begin) {
       const LeafPoint& part = parts[begin->part];
