@@ -92,7 +92,7 @@ class LeafCollector {
     for (std::size_t i = 0; i < pieces.size(); ++i) {
       if (pieces[i].size() < component.size() && take_if_flat(source, pieces[i])) continue;
       const FaceGroups triangles = split_into_triangles(pieces[i]);
-      for (std::size_t t = 0; t < triangles.size(); ++t) take_leaf(source, triangles[t]);
+      for (std::size_t t = 0; t < triangles.size(); ++t) take_triangle(source, triangles[t]);
     }
   }
 
@@ -101,23 +101,24 @@ class LeafCollector {
     mesh_.assign(source.mesh, faces, source.placement.linear);
     const std::optional<LeafEllipse> ellipse = fit_ellipse(mesh_, source.texture);
     if (ellipse && !ellipse->flat) return false;
-    take_mesh(source, ellipse);
+    take_mesh(source, ellipse, false);
     return true;
   }
 
-  void take_leaf(const Source& source, std::span<const Face> faces) {
+  void take_triangle(const Source& source, std::span<const Face> faces) {
     mesh_.assign(source.mesh, faces, source.placement.linear);
-    take_mesh(source, fit_ellipse(mesh_, source.texture));
+    take_mesh(source, fit_ellipse(mesh_, source.texture), true);
   }
 
-  void take_mesh(const Source& source, const std::optional<LeafEllipse>& ellipse) {
+  void take_mesh(const Source& source, const std::optional<LeafEllipse>& ellipse, bool piece) {
     if (!ellipse || !is_finite(source.primitive) || !append_vertices(source, *ellipse)) {
       ++leaves_.dropped_leaves;
       return;
     }
     const Eigen::Vector3d first = to_eigen(source.mesh.positions[mesh_.positions.front()]);
     sheets_.take(mesh_, *ellipse, source.texture,
-                 source.placement.linear * first + source.placement.translation, options_.scale);
+                 source.placement.linear * first + source.placement.translation, options_.scale,
+                 piece);
     ++leaves_.leaf_count;
     if (source.texture.draws() && !ellipse->from_texture) ++untextured_;
   }

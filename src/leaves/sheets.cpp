@@ -65,7 +65,7 @@ Vec2d in_plane(const Axes& axes, const Eigen::Vector3d& point) {
 auto sheet_key(const LeafSheet& s) {
   return std::tuple(s.area, s.normal.x, s.normal.y, s.normal.z, s.major.x, s.major.y, s.major.z,
                     s.radius_major, s.radius_minor, s.origin.x, s.origin.y, s.origin.z, s.across.x,
-                    s.across.y, s.across.z, s.along.x, s.along.y, s.along.z);
+                    s.across.y, s.across.z, s.along.x, s.along.y, s.along.z, s.piece);
 }
 
 }  // namespace
@@ -99,8 +99,8 @@ std::uint32_t SheetCollector::chart_of(Triangles triangles,
 }
 
 void SheetCollector::take(const LeafMesh& leaf, const LeafEllipse& ellipse,
-                          const TextureSource& texture, const Eigen::Vector3d& first,
-                          double scale) {
+                          const TextureSource& texture, const Eigen::Vector3d& first, double scale,
+                          bool piece) {
   const std::vector<std::size_t> faces = faces_of_one_side(leaf, ellipse.normal);
   if (faces.empty()) return;
   const bool textured = ellipse.map && texture.mask;
@@ -136,7 +136,7 @@ void SheetCollector::take(const LeafMesh& leaf, const LeafEllipse& ellipse,
                              to_vec3d(axes.along), area, number, to_vec3f(normal),
                              to_vec3f(major.normalized()),
                              static_cast<float>(scale * ellipse.major.norm()),
-                             static_cast<float>(scale * ellipse.minor.norm())});
+                             static_cast<float>(scale * ellipse.minor.norm()), piece});
 }
 
 std::shared_ptr<const LeafSheets> SheetCollector::finish(const Box& crown) {

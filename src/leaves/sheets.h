@@ -31,6 +31,7 @@ struct LeafSheet {
   std::uint32_t chart = 0;
   Vec3f normal, major;
   float radius_major = 0, radius_minor = 0;  ///< R_u, R_v, model units
+  bool piece = false;  ///< a triangle of a curved surface, whose ellipse is no leaf's
 
   Vec3d at(Vec2d p) const { return origin + across * p.x + along * p.y; }
 };
@@ -46,9 +47,10 @@ struct LeafSheets {
 /// Takes leaves one by one.
 class SheetCollector {
  public:
-  /// `first`: where the leaf's first point lies in the world; `scale` multiplies its radii.
+  /// `first`: where the leaf's first point lies in the world; `scale` multiplies its radii; `piece`
+  /// as in LeafSheet.
   void take(const LeafMesh& leaf, const LeafEllipse& ellipse, const TextureSource& texture,
-            const Eigen::Vector3d& first, double scale);
+            const Eigen::Vector3d& first, double scale, bool piece);
 
   /// All of them, sorted; `crown`: of the leaves but for strays, which are not to move others.
   std::shared_ptr<const LeafSheets> finish(const Box& crown);

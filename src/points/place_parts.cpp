@@ -84,9 +84,15 @@ std::vector<FlatPart> cut_chart(const LeafChart& chart, const Cut& cut) {
   return parts;
 }
 
-LeafPoint whole(const LeafSheet& sheet, const LeafChart& chart) {
-  return {sheet.at(chart.centre), sheet.normal,       sheet.major,
-          sheet.radius_major,     sheet.radius_minor, sheet.area};
+/// A leaf has its own ellipse; a triangle of a surface is a part of it like others.
+LeafPoint whole(const LeafSheet& sheet, const LeafChart& chart, double spacing) {
+  const auto least = static_cast<float>(sheet.piece ? kLeastRadius * spacing : 0);
+  return {sheet.at(chart.centre),
+          sheet.normal,
+          sheet.major,
+          std::max(sheet.radius_major, least),
+          std::max(sheet.radius_minor, least),
+          sheet.area};
 }
 
 LeafPoint placed(const FlatPart& part, const LeafSheet& sheet, double spacing) {
@@ -128,7 +134,7 @@ std::vector<LeafPoint> place_parts(const LeafSheets& sheets, double spacing) {
   for (const LeafSheet& sheet : sheets.sheets) {
     const double count = parts_of(sheet, spacing);
     if (count == 1) {
-      points.push_back(whole(sheet, sheets.charts[sheet.chart]));
+      points.push_back(whole(sheet, sheets.charts[sheet.chart], spacing));
       continue;
     }
     for (const FlatPart& part : cuts.at(Cut::of(sheet, static_cast<std::size_t>(count)))) {

@@ -75,7 +75,7 @@ class Points(CommandTest):
             "paper-previous": ("isotropic", 1.5, 1.5),
         }
         for style, (method, radius, threshold) in at_vertices.items():
-            parameters = self.report(self.tree, "--style", style)["parameters"]
+            parameters = self.report(ASH, "--style", style)["parameters"]
             self.assertEqual(parameters["style"], style)
             self.assertEqual(parameters["points"], "vertices")
             self.assertEqual(parameters["method"], method)
@@ -84,14 +84,14 @@ class Points(CommandTest):
             self.assertIsNone(parameters["coverage"])
 
     def test_a_style_has_its_former_name(self):
-        former = self.report(self.tree, "--style", "luft-deussen")
+        former = self.report(ASH, "--style", "luft-deussen")
         self.assertEqual(former["parameters"]["style"], "paper-previous")
         shape = self.shape.read_bytes()
-        self.report(self.tree, "--style", "paper-previous")
+        self.report(ASH, "--style", "paper-previous")
         self.assertEqual(self.shape.read_bytes(), shape)
 
     def test_styles_at_vertices_keep_their_values(self):
         for style, values in (("painterly", (2.5, 0.92)), ("thin", (1.4, None))):
             flags = ("--style", style, "--points", "vertices")
-            parameters = self.report(self.tree, *flags)["parameters"]
+            parameters = self.report(ASH, *flags)["parameters"]
             self.assertEqual((parameters["radius_max"], parameters["coverage"]), values)

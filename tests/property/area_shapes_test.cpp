@@ -74,14 +74,29 @@ TEST_P(Tessellation, OfLeavesDoesNotShow) {
       {"in four, split", test::with_primitives(tree, fine_split)},
       {"other diagonals", test::with_primitives(tree, test::along_the_other_diagonal)},
   };
+  // Of a sheet that lies alone T is N at its rim, which a point more or less moves: measured are
+  // 1.5%, and 0.06 voxels.
+  const double volumes = GetParam().tree == test::curved_sheet ? 0.02 : 0.01;
   for (const auto& [how, other] : others) {
     SCOPED_TRACE(how);
     const Shape shape = shape_of(other, options);
     const double h = plain.report.voxel_size;
-    EXPECT_NEAR(volume(shape.mesh) / volume(plain.mesh), 1, 0.01);
+    EXPECT_NEAR(volume(shape.mesh) / volume(plain.mesh), 1, volumes);
     EXPECT_LT(test::distance_between(shape.mesh, plain.mesh, 2 * h), 0.5 * h);
     EXPECT_LT(test::distance_between(plain.mesh, shape.mesh, 2 * h), 0.5 * h);
   }
+}
+
+TEST(Tessellation, OfASheetIntoTrianglesOfOnePointDoesNotShow) {
+  Options options = at(Preset::paper_32);
+  options.method = Method::uncontrolled;
+  TreeModel tree = test::curved_sheet();
+  const Shape plain = shape_of(tree, options);
+  for (int i = 0; i < 3; ++i) tree = test::with_primitives(tree, test::in_quarters);
+  const Shape shape = shape_of(tree, options);
+  EXPECT_NEAR(volume(shape.mesh) / volume(plain.mesh), 1, 0.05);
+  EXPECT_LT(test::distance_between(plain.mesh, shape.mesh, shape.report.voxel_size),
+            0.5 * shape.report.voxel_size);
 }
 
 class Mass : public testing::TestWithParam<Kind> {};
@@ -162,8 +177,17 @@ TEST(AreaBytes, AreTheSameDenseOnAnyThreadsAndAgain) {
   }
 }
 
+/// Cards within a closed crown, with room between.
+TreeModel crown_with_a_hollow() {
+  TreeModel tree = test::closed_sphere();
+  tree.instances.push_back({1, "node"});
+  tree.primitives.push_back(test::cards_in_ball(60, 0.6, 0.5, 0.4));
+  tree.primitives.back().material = 0;
+  return tree;
+}
+
 TEST(AreaSeries, SaysOfEachEntryWhatAnExtractionSays) {
-  const LeafSet leaves = find_leaves(test::card_tree(), {});
+  const LeafSet leaves = find_leaves(crown_with_a_hollow(), {});
   std::vector<Options> series;
   const auto add = [&](auto&& change) {
     series.push_back(at(Preset::draft));

@@ -104,7 +104,7 @@ inline TreeModel closed_sphere() {
       }
     }
   }
-  Primitive fine{.triangles = {}};
+  Primitive fine;
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles;
   fine.positions = p.positions;
   const auto middle = [&](std::uint32_t a, std::uint32_t b) {
