@@ -134,10 +134,15 @@ double threshold_of(const ForestLevel& level, std::span<const ModelUse> uses,
       }
       for (const float n : model.density) densities.push_back({n, weight});
     }
+    if (options.points == PointSource::vertices) {
+      return threshold_for_coverage(densities, *options.coverage);
+    }
+    // Where all count alike, each counts for one: as in an extraction.
+    std::uint64_t unit = 0;
+    for (const WeightedDensity& d : densities) unit = std::gcd(unit, d.weight);
+    for (WeightedDensity& d : densities) d.weight /= unit;
     const double threshold = threshold_for_coverage(densities, *options.coverage);
-    return options.points == PointSource::area
-               ? clear_of_sheets(densities, threshold, *options.coverage)
-               : threshold;
+    return clear_of_sheets(densities, threshold, *options.coverage);
   }
   const double mean = weighted_mean(level.models, uses);
   if (options.threshold_percent) return *options.threshold_percent / 100 * mean;

@@ -55,11 +55,13 @@ class Histogram {
     counts_[bits < kFirst ? 0 : std::min((bits - kFirst) >> kDropped, kBins - 1)] += d.weight;
   }
 
-  /// The highest lower end of a bin that has at least `share` of all at or above it.
-  double quantile(double share) const {
+  /// The highest lower end of a bin that has at least `share` of all at or above it, to the nearest
+  /// `unit`, what a place on the leaves counts for.
+  double quantile(double share, std::uint64_t unit) const {
     std::uint64_t all = 0;
     for (const std::uint64_t c : counts_) all += c;
-    const auto wanted = static_cast<std::uint64_t>(std::llround(share * static_cast<double>(all)));
+    const double units = static_cast<double>(all) / static_cast<double>(unit);
+    const std::uint64_t wanted = static_cast<std::uint64_t>(std::llround(share * units)) * unit;
     std::uint64_t above = 0;
     std::uint32_t bin = kBins;
     while (bin > 0 && above < std::max<std::uint64_t>(wanted, 1)) above += counts_[--bin];
@@ -136,7 +138,8 @@ void control_over_scene(const Scene& scene, const TilePlan& plan, int edge,
     for (const WeightedDensity& n : density_in(scene, level, task(t), device)) histogram.add(n);
   });
   ranks.sum(histogram.counts());
-  level.threshold = histogram.quantile(*level.options.coverage);
+  level.threshold = histogram.quantile(*level.options.coverage,
+                                       weight_of(level.sample_unit, 1, level.sample_unit));
   if (level.options.points == PointSource::area) {
     std::vector<WeightedDensity> densities = histogram.densities();
     level.threshold = clear_of_sheets(densities, level.threshold, *level.options.coverage);

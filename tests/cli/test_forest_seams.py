@@ -26,7 +26,8 @@ class Seams(ForestTest):
         single = self.folder / name
         flags = flags if "--voxel-size" in flags else (*COARSE, *flags)
         self.forest(
-            self.scene, "forest", "--restart", "--tile", tile, "--single", single, *flags
+            self.scene, "forest", "--restart", "--tile", tile, "--single", single,
+            "--memory", "8G", *flags
         )
         surface = (read_ply if name.endswith(".ply") else read_glb)(single)
         self.assertGreater(len(surface.triangles), 2000)

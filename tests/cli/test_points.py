@@ -57,9 +57,9 @@ class Points(CommandTest):
 
     def test_styles(self):
         by_area = {
-            "painterly": ("controlled", 3, 0.98),
+            "painterly": ("controlled", 3.5, 0.98),
             "thin": ("controlled", 1.4, 0.85),
-            "fat": ("controlled", 4.5, 0.99),
+            "fat": ("controlled", 5, 0.99),
             "previous": ("isotropic", 2.5, 0.95),
         }
         for style, (method, radius, coverage) in by_area.items():

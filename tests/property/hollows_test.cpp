@@ -142,7 +142,7 @@ TEST(Hollows, OfARealTreeAreTheSameInADenseField) {
   const LeafSet ash = find_leaves(read_tree(LEAFHULL_EXAMPLES "/ash.glb"), {});
   Options options;
   options.points = PointSource::vertices;
-  options.threshold_percent = 60;
+  options.threshold_percent = 30;
   options.hollows = Hollows::keep;
   const Shape kept = extract(ash, options, device());
   options.hollows = Hollows::fill;

@@ -68,7 +68,7 @@ TEST(Report, ResolvesEveryParameter) {
   EXPECT_EQ(parameters["coverage"], 0.8);
   EXPECT_TRUE(parameters["threshold_percent"].is_null());
   EXPECT_EQ(parameters["threshold"], 1.7);
-  EXPECT_EQ(parameters["radius_max"], 3.5);
+  EXPECT_EQ(parameters["radius_max"], 2.5);
   EXPECT_EQ(parameters["radius_max_model"], 0.3);
   EXPECT_EQ(parameters["resolution"], 128);
   EXPECT_EQ(parameters["voxel_size"], 0.1);
