@@ -49,7 +49,8 @@ void check_lengths(const Extraction& extraction, Table& table) {
   table.compare_near("resolution", extraction.number("resolution"), cells, 0.5);
 }
 
-/// What a kernel stands for in sums over the leaves: its area, w pi R_u R_v / (k + 1), or one vertex.
+/// What a kernel stands for in sums over the leaves: its area, w pi R_u R_v / (k + 1), or one
+/// vertex.
 std::vector<double> shares(const Extraction& extraction) {
   const auto& ru = extraction.kernels.property("ru");
   std::vector<double> shares(ru.size(), 1.0);
