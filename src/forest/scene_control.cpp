@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "density/control.h"
@@ -55,17 +56,17 @@ class Histogram {
     counts_[bits < kFirst ? 0 : std::min((bits - kFirst) >> kDropped, kBins - 1)] += d.weight;
   }
 
-  /// The highest lower end of a bin that has at least `share` of all at or above it, to the nearest
-  /// `unit`, what a place on the leaves counts for.
-  double quantile(double share, std::uint64_t unit) const {
-    std::uint64_t all = 0;
-    for (const std::uint64_t c : counts_) all += c;
-    const double units = static_cast<double>(all) / static_cast<double>(unit);
-    const std::uint64_t wanted = static_cast<std::uint64_t>(std::llround(share * units)) * unit;
-    std::uint64_t above = 0;
-    std::uint32_t bin = kBins;
-    while (bin > 0 && above < std::max<std::uint64_t>(wanted, 1)) above += counts_[--bin];
-    return static_cast<double>(std::bit_cast<float>(kFirst + (bin << kDropped)));
+  /// The highest lower end of a bin that has at least `share` of all at or above it.
+  double quantile(double share) const { return end_of(bin_above(share, 1).first); }
+
+  /// The same, to the nearest `unit`, what a place on the leaves counts for; halfway down to the
+  /// next bin with something in it where just that share lies above, as in an extraction.
+  double halfway_quantile(double share, std::uint64_t unit) const {
+    const auto [bin, exact] = bin_above(share, unit);
+    if (!exact) return end_of(bin);
+    std::uint32_t next = bin;
+    while (next > 0 && counts_[next - 1] == 0) --next;
+    return next > 0 ? (end_of(bin) + end_of(next - 1)) / 2 : end_of(bin);
   }
 
   std::span<std::uint64_t> counts() { return counts_; }
@@ -81,6 +82,21 @@ class Histogram {
   }
 
  private:
+  /// That bin, and whether just the share lies in it and above.
+  std::pair<std::uint32_t, bool> bin_above(double share, std::uint64_t unit) const {
+    std::uint64_t all = 0;
+    for (const std::uint64_t c : counts_) all += c;
+    const double units = static_cast<double>(all) / static_cast<double>(unit);
+    const auto wanted = static_cast<std::uint64_t>(std::llround(share * units)) * unit;
+    std::uint64_t above = 0;
+    std::uint32_t bin = kBins;
+    while (bin > 0 && above < std::max<std::uint64_t>(wanted, 1)) above += counts_[--bin];
+    return {bin, above == wanted};
+  }
+  static double end_of(std::uint32_t bin) {
+    return static_cast<double>(std::bit_cast<float>(kFirst + (bin << kDropped)));
+  }
+
   static constexpr std::uint32_t kDropped = 23 - 16;
   static constexpr std::uint32_t kFirst = (127u - 20) << 23;  // 2^-20
   static constexpr std::uint32_t kBins = (20u + 24) << 16;    // up to 2^24
@@ -138,12 +154,15 @@ void control_over_scene(const Scene& scene, const TilePlan& plan, int edge,
     for (const WeightedDensity& n : density_in(scene, level, task(t), device)) histogram.add(n);
   });
   ranks.sum(histogram.counts());
-  level.threshold = histogram.quantile(*level.options.coverage,
-                                       weight_of(level.sample_unit, 1, level.sample_unit));
-  if (level.options.points == PointSource::area) {
-    std::vector<WeightedDensity> densities = histogram.densities();
-    level.threshold = clear_of_sheets(densities, level.threshold, *level.options.coverage);
+  if (level.options.points == PointSource::vertices) {
+    level.threshold = histogram.quantile(*level.options.coverage);
+    return;
   }
+  const double coverage = *level.options.coverage;
+  const std::uint64_t unit = weight_of(level.sample_unit, 1, level.sample_unit);
+  std::vector<WeightedDensity> densities = histogram.densities();
+  level.threshold =
+      clear_of_sheets(densities, histogram.halfway_quantile(coverage, unit), coverage);
 }
 
 }  // namespace leafhull

@@ -66,7 +66,7 @@ class Extract(CommandTest):
         }
         thresholds = {"paper-thin": 2, "paper-fat": 2, "paper-previous": 1.5}
         for style, (method, radius, flatness, coverage) in expected.items():
-            _, _, report = self.extract(self.tree, "--style", style, *DRAFT)
+            _, _, report = self.extract(ASH, "--style", style, *DRAFT)
             parameters = report["parameters"]
             self.assertEqual(parameters["style"], style)
             self.assertEqual(parameters["method"], method)
@@ -79,7 +79,7 @@ class Extract(CommandTest):
             self.assertEqual(parameters["points"], points)
             if style in thresholds:
                 self.assertEqual(parameters["threshold"], thresholds[style])
-        _, _, report = self.extract(self.tree, "--style", "luft-deussen", *DRAFT)
+        _, _, report = self.extract(ASH, "--style", "luft-deussen", *DRAFT)
         self.assertEqual(report["parameters"]["style"], "paper-previous", "the old name")
 
     def test_options_in_any_order(self):

@@ -38,9 +38,9 @@ class Inspect(CommandTest):
         self.assertEqual(plain["stray_leaves"], 0)
         self.assertEqual(plain["crown"], plain["bounds"])
 
-        for corner in positions[:8]:
+        for k, corner in enumerate(positions[:8]):
             triangles.append([len(positions) + i for i in range(3)])
-            positions += [[corner[0], corner[1] - 12 + i / 8, corner[2] + 0.3 * (i % 2)] for i in range(3)]
+            positions += [[corner[0] + k, corner[1] - 12 + i / 8, i % 2] for i in range(3)]
         path = self.input("strays.glb", glb.tree(positions, triangles))
         result = self.succeed("inspect", path, "--json")
         leaves = json.loads(result.stdout)["leaves"]
