@@ -43,7 +43,7 @@ void print_table(const Arguments& arguments, const std::vector<Suggestion>& choi
   }
   std::cout << table(rows)
             << "\n"
-               "coverage        how much of the leaf vertices shall lie inside: lower is thinner\n"
+               "coverage        how much of the leaves shall lie inside: lower is thinner\n"
                "R_max           in crown units, 1/64 of the crown: larger is rounder\n"
                "                (what extract takes unasked: coverage 0.92, R_max 2.5)\n"
                "inside          how much of them does: more where many have the same density\n"
