@@ -28,32 +28,32 @@ static_assert(std::size(kPresetNames) == std::size(kPresetResolutions));
 /// What a style stands for. SPEC: 4; Source: Figure 17.
 struct StyleValues {
   Method method;
+  PointSource points;
   double radius_max;
   std::optional<double> threshold, coverage;
   double flatness;
-  PointSource points;
   double point_spacing;
   double min_component;
 };
 
 // Luft and Deussen's spheres are not flattened: 1 keeps them round under another method, too.
 constexpr StyleValues kPaperStyles[] = {
-    {Method::controlled, 1.4, 2.0, {}, 0.7, PointSource::vertices, 0.4, 0},
-    {Method::controlled, 1.6, 2.0, {}, 1.0, PointSource::vertices, 0.4, 0},
-    {Method::isotropic, 1.5, 1.5, {}, 1.0, PointSource::vertices, 0.4, 0},
+    {Method::controlled, PointSource::vertices, 1.4, 2.0, {}, 0.7, 0.4, 0},
+    {Method::controlled, PointSource::vertices, 1.6, 2.0, {}, 1.0, 0.4, 0},
+    {Method::isotropic, PointSource::vertices, 1.5, 1.5, {}, 1.0, 0.4, 0},
 };
 constexpr StyleValues kStyles[] = {
-    {Method::controlled, 3.5, {}, 0.98, 0.8, PointSource::area, 0.33, 0.001},
-    {Method::controlled, 1.4, {}, 0.85, 0.7, PointSource::area, 0.33, 0.001},
-    {Method::controlled, 5.0, {}, 0.99, 1.0, PointSource::area, 0.33, 0.001},
-    {Method::isotropic, 2.5, {}, 0.95, 1.0, PointSource::area, 0.33, 0.001},
+    {Method::controlled, PointSource::area, 3.5, {}, 0.98, 0.8, 0.33, 0.001},
+    {Method::controlled, PointSource::area, 1.4, {}, 0.85, 0.7, 0.33, 0.001},
+    {Method::controlled, PointSource::area, 5.0, {}, 0.99, 1.0, 0.33, 0.001},
+    {Method::isotropic, PointSource::area, 2.5, {}, 0.95, 1.0, 0.33, 0.001},
     kPaperStyles[0],
     kPaperStyles[1],
     kPaperStyles[2],
 };
 /// The first styles with kernels at vertices, as they were before there were others.
 constexpr StyleValues kStylesAtVertices[] = {
-    {Method::controlled, 2.5, {}, 0.92, 0.8, PointSource::vertices, 0.4, 0.001},
+    {Method::controlled, PointSource::vertices, 2.5, {}, 0.92, 0.8, 0.4, 0.001},
     kPaperStyles[0],
     kPaperStyles[1],
     kPaperStyles[2],
