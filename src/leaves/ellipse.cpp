@@ -96,7 +96,8 @@ std::optional<LeafEllipse> fit_ellipse(const LeafMesh& leaf, const TextureSource
   if (!plane) return {};
   std::optional<TextureMap> map;
   if (texture.draws()) {
-    if ((map = fit_map(leaf, texture.uvs, plane->normal))) {
+    map = fit_map(leaf, texture.uvs, plane->normal);
+    if (map) {
       const auto drawn = texture.ellipse ? texture.ellipse : texture.mask->ellipse(map->box);
       if (drawn) {
         if (auto mapped = map_ellipse(*drawn, *map, *plane)) return mapped;
