@@ -80,7 +80,7 @@ double threshold_of(const Options& options, const DensityStatistics& statistics,
 }
 
 /// A coverage is missed by more than this where many places have one density.
-constexpr double kCoverageMissed = 0.02;
+constexpr double kCoverageMissed = 0.025;
 
 void warn_of_points(const LeafSet& leaves, const Options& options, std::span<const float> there,
                     Report& report) {
