@@ -4,6 +4,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "leaves/convex_polygon.h"
 
@@ -34,6 +35,19 @@ std::pair<double, double> across(const ConvexPolygon& row, double top) {
     }
   }
   return {std::max(low[0], low[1]), std::min(high[0], high[1])};
+}
+
+/// The moments of those texels that are kept of a row of whole ones, the first with its corner at
+/// (left, top); `turn` is their sign.
+PolygonMoments whole_texels(std::span<const std::uint8_t> texels, double left, double top,
+                            double turn) {
+  std::uint64_t count = 0, places = 0;
+  for (std::size_t i = 0; i < texels.size(); ++i) {
+    count += texels[i];
+    places += texels[i] * i;
+  }
+  const double n = turn * static_cast<double>(count);
+  return {n, {turn * static_cast<double>(places) + n * (left + 0.5), n * (top + 0.5)}};
 }
 
 /// First and last texel whose centre lies between two texture coordinates.
@@ -70,14 +84,11 @@ std::optional<AlphaMask> AlphaMask::of(const Material& material, const std::vect
   return mask;
 }
 
-bool AlphaMask::keeps_texel(std::int64_t x, std::int64_t y) const {
-  const std::int64_t row = wrapped(y, height_, wrap_v_) * width_;
-  return kept_[static_cast<std::size_t>(row + wrapped(x, width_, wrap_u_))] != 0;
-}
-
 bool AlphaMask::keeps(Vec2d uv) const {
-  return keeps_texel(static_cast<std::int64_t>(std::floor(uv.x * width_)),
-                     static_cast<std::int64_t>(std::floor(uv.y * height_)));
+  const auto texel = [](double v) { return static_cast<std::int64_t>(std::floor(v)); };
+  const std::int64_t row = wrapped(texel(uv.y * height_), height_, wrap_v_) * width_;
+  const std::int64_t column = wrapped(texel(uv.x * width_), width_, wrap_u_);
+  return kept_[static_cast<std::size_t>(row + column)] != 0;
 }
 
 KeptPart AlphaMask::kept_part(const std::array<Vec2d, 3>& triangle) const {
@@ -103,14 +114,22 @@ KeptPart AlphaMask::kept_part(const std::array<Vec2d, 3>& triangle) const {
     if (row.empty()) continue;
     const auto [row_low, row_high] = extent(row);
     const auto [whole_low, whole_high] = across(row, top);
+    const std::int64_t begin = wrapped(y, height_, wrap_v_) * width_;
     for (std::int64_t x = first(row_low.x); static_cast<double>(x) < row_high.x; ++x) {
-      if (!keeps_texel(x, y)) continue;
       const auto left = static_cast<double>(x);
-      if (left >= whole_low && left + 1 <= whole_high) {
-        kept += {turn, {turn * (left + 0.5), turn * (top + 0.5)}};
-      } else {
-        kept += moments_of(clip(row, &Vec2d::x, left, left + 1));
+      if (x >= 0 && left >= whole_low && left + 1 <= whole_high) {
+        const auto end = std::min<std::int64_t>(width_, first(whole_high));
+        if (x < end) {
+          kept += whole_texels(std::span(kept_).subspan(static_cast<std::size_t>(begin + x),
+                                                        static_cast<std::size_t>(end - x)),
+                               left, top, turn);
+          x = end - 1;
+          continue;
+        }
       }
+      const std::int64_t column = wrapped(x, width_, wrap_u_);
+      if (kept_[static_cast<std::size_t>(begin + column)] == 0) continue;
+      kept += moments_of(clip(row, &Vec2d::x, left, left + 1));
     }
   }
   if (kept.area == 0) return {0, middle};

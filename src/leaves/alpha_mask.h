@@ -49,7 +49,6 @@ class AlphaMask {
 
   AlphaMask(const Material& material, const Image& image);
   std::optional<TextureEllipse> moments(const Texels& texels) const;
-  bool keeps_texel(std::int64_t x, std::int64_t y) const;
 
   int width_, height_;
   Wrap wrap_u_, wrap_v_;

@@ -15,7 +15,7 @@ namespace {
 
 /// So many tell T for a coverage of 0.98 to within a percent: fewer would move the surface with the
 /// way in which leaves happen to be tessellated.
-constexpr std::size_t kSamples = 1 << 16;
+constexpr std::size_t kSamples = 1 << 15;
 /// Places on a chart to choose from.
 constexpr std::size_t kLeastPlaces = 64;
 
