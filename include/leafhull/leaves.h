@@ -35,8 +35,8 @@ struct LeafVertex {
   std::uint32_t leaf;  ///< which leaf, below LeafSet::leaf_count
 };
 
-/// Where a kernel of leaf area sits: a part of a leaf, or of leaves that lie together, or a vertex.
-/// The third axis is normal x major. SPEC: 1b.
+/// A place for a kernel: the middle of a part of a leaf or of leaves that lie together, or a
+/// vertex. The third axis is normal x major. SPEC: 1b.
 struct LeafPoint {
   Vec3d position;      ///< c_j, model units
   Vec3f normal;        ///< n_j, unit

@@ -11,8 +11,8 @@ namespace {
 /// A radius is never below this share of R_max. SPEC: 1.
 constexpr double kSmallestRadius = 1e-3;
 
-/// Of the mean: leaf area whose N_iso deviates by less is even, and what deviates is the ripple of
-/// its parts, which control must not enlarge.
+/// A share of the mean. Leaf area whose N_iso deviates by less is even: what deviates is the ripple
+/// of its parts, which control must not enlarge.
 constexpr double kLeastSpread = 0.15;
 
 Kernel kernel_at(const LeafPoint& leaf, Vec3d radii, int falloff) {
