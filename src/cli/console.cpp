@@ -42,6 +42,9 @@ std::string duration(double seconds) {
   return std::to_string(minutes / 60) + " h " + std::to_string(minutes % 60) + " min";
 }
 
+/// In one write: what several ranks print to one terminal is mixed write by write.
+void print(const std::string& text) { std::cerr << text << std::flush; }
+
 }  // namespace
 
 Console::Console(bool quiet, bool verbose)
@@ -57,7 +60,7 @@ Console::~Console() { clear_progress(); }
 void Console::say(const std::string& line) {
   if (quiet_) return;
   clear_progress();
-  std::cerr << line << '\n';
+  print(line + '\n');
 }
 
 void Console::detail(const std::string& line) {
@@ -105,8 +108,8 @@ void Console::draw(std::string_view stage, double done, const std::string& besid
   const int width = std::clamp(room, kLeastBarWidth, kBarWidth);
   const int filled = static_cast<int>(std::lround(std::clamp(done, 0.0, 1.0) * width));
   shown = true;
-  std::cerr << "\r\033[K" << name << " [" << std::string(filled, '#')
-            << std::string(width - filled, '.') << "] " << beside << std::flush;
+  print("\r\033[K" + name + " [" + std::string(filled, '#') + std::string(width - filled, '.') +
+        "] " + beside);
 }
 
 void clear_progress() noexcept {
@@ -132,7 +135,7 @@ Failure current_failure() {
 void print_error(std::string what, const std::string& remedy) {
   clear_progress();
   while (what.ends_with('.') || what.ends_with('\n')) what.pop_back();
-  std::cerr << "leafhull: error: " << what << '.' << (remedy.empty() ? "" : " ") << remedy << '\n';
+  print("leafhull: error: " + what + '.' + (remedy.empty() ? "" : " ") + remedy + '\n');
 }
 
 }  // namespace leafhull::cli

@@ -1,4 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
+import os
+import socket
+import subprocess
+
 from command import CommandTest
 
 
@@ -105,6 +109,20 @@ class Usage(CommandTest):
 
     def test_missing_value(self):
         self.refuse(["--threshold needs a value"], "--threshold")
+
+    def test_a_line_is_written_at_once(self):
+        """Written in parts it is torn where ranks share a terminal."""
+        for arguments in (("--verbose",), ("--band-low", "0.5", "--band-high", "0.25")):
+            # Each write to such a socket is a message of its own.
+            ours, its = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
+            command = [os.environ["LEAFHULL"], "extract", self.tree, "-o", self.shape, *arguments]
+            with ours:
+                with its:
+                    subprocess.run([str(word) for word in command], stderr=its, timeout=300)
+                writes = [text.decode() for text in iter(lambda: ours.recv(1 << 16), b"")]
+            self.assertTrue(writes)
+            for text in writes:
+                self.assertRegex(text, r"\A[^\n]+\n\Z")
 
     def test_errors_come_before_the_tree_is_read(self):
         self.fail_with(2, ["--style"], "extract", "no.glb", "-o", self.shape, "--style", "x")
