@@ -40,6 +40,8 @@ struct Options {
   std::optional<double> threshold;          ///< T itself
   std::optional<double> threshold_percent;  ///< T as a percentage of m
   std::optional<double> coverage;           ///< T as a quantile of N over the leaves
+  std::optional<double> erosion;            ///< the share of the leaves to be left outside
+  std::optional<double> dilation;           ///< the share of the shape without a leaf: finds R_max
   std::optional<double> radius_max;         ///< R_max in radius_unit
   RadiusUnit radius_unit = RadiusUnit::crown;
   std::optional<double> flatness;  ///< lambda_R
@@ -48,8 +50,8 @@ struct Options {
   int falloff = 2;                      ///< k
   Spread spread = Spread::stddev;
   DensitySource density = DensitySource::exact;
-  double band_low = 0;   ///< a1
-  double band_high = 2;  ///< a2
+  /// a1 and a2, or the shares of the leaves up to p1 and to p2, in percent.
+  std::optional<double> band_low, band_low_percent, band_high, band_high_percent;
   std::optional<double> min_component;
   std::optional<Hollows> hollows;
 
@@ -86,11 +88,13 @@ int resolution_of(Preset preset);
 
 /// `options` with the style's values where nothing was asked for, everything checked. Afterwards
 /// `method`, `radius_max`, `flatness`, `points`, `point_spacing`, `min_component` and `hollows` are
-/// set, exactly one of the three thresholds is, and `resolution` or `voxel_size` is.
+/// set, but R_max where a dilation is, exactly one of the three thresholds and the erosion is, of a
+/// band's end as a deviation or a percentage one, and `resolution` or `voxel_size` is.
 /// @throws Error usage: a value out of range, or two options that contradict each other.
 Options resolve(Options options);
 
-/// R_max in model units. `resolved` as resolve() returns them. SPEC: 4.
+/// R_max in model units. `resolved` as resolve() returns them; where R_max is still to be found, the
+/// style's, from which the search starts. SPEC: 4.
 double radius_max_in_model_units(const LeafSet& leaves, const Options& resolved);
 
 /// One row per option: the flags, the report's parameters and README's table derive from it.
@@ -115,8 +119,19 @@ struct OptionRow {
   Member member;
   double low = 0, high = 0;  ///< bounds of a number
   bool low_open = false;     ///< the lower bound itself is excluded
+  bool high_open = false;    ///< the upper bound itself is excluded
+  /// The option that takes X where this one's text is X%; empty where % says nothing.
+  std::string_view percent = "";
 };
 
 std::span<const OptionRow> option_table();
+
+/// The row of that name, which the table has.
+const OptionRow& option_row(std::string_view name);
+
+/// Whether `X%` is a value of the row: of another option, or X / 100 of a fraction.
+inline bool takes_percent(const OptionRow& row) {
+  return !row.percent.empty() || row.unit == "fraction";
+}
 
 }  // namespace leafhull

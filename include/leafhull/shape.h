@@ -49,6 +49,8 @@ struct Metrics {
   std::uint64_t on_voxels = 0;         ///< some corners
   std::uint64_t off_site_exact = 0;    ///< places on the leaves with N below T, summed there
   std::uint64_t off_site_sampled = 0;  ///< the same, N interpolated from the lattice
+  double erosion = 0;   ///< the share of the places on the leaves that the shape leaves outside
+  double dilation = 0;  ///< dilated voxels over voxels of the shape, 64 along it at any resolution
 };
 
 /// Places on the leaves are their vertices or, with PointSource::area, samples of equal area.

@@ -30,8 +30,8 @@ struct SweptOption {
 bool can_sweep(const OptionRow& row);
 
 /// The values that `text` stands for: a range first:last:step of numbers, the last included where
-/// a step meets it; a list a,b,c; or one value, handed on unread. Numbers of a threshold that end
-/// in % are values of threshold-percent.
+/// a step meets it; a list a,b,c; or one value, handed on unread. Numbers that end in % are
+/// values of the row's `percent`, or hundredths of a fraction.
 /// @throws Error usage: no range and no list, a range without values, a step that is not above
 /// zero, a value twice.
 SweptOption swept_option(const OptionRow& row, std::string_view text);

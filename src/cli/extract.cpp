@@ -85,9 +85,13 @@ std::vector<std::string> without_effect(const Arguments& arguments, const Option
   const std::string method = "with --method " + std::string(name(*resolved.method));
   if (*resolved.method == Method::isotropic) warn("flatness", method);
   if (*resolved.method != Method::controlled) {
-    for (const auto option : {"band-low", "band-high", "spread"}) warn(option, method);
+    for (const auto option :
+         {"band-low", "band-low-percent", "band-high", "band-high-percent", "spread"}) {
+      warn(option, method);
+    }
   }
-  if (arguments.given.contains("radius-unit") && !arguments.given.contains("radius-max")) {
+  if (resolved.dilation) warn("radius-unit", "with --dilation, which finds R_max in crown units");
+  if (!resolved.dilation && arguments.given.contains("radius-unit") && !arguments.given.contains("radius-max")) {
     warnings.push_back("--radius-unit " + std::string(name(resolved.radius_unit)) +
                        " without --radius-max: the style's " + number(*resolved.radius_max) +
                        " counts in that unit");

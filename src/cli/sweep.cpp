@@ -29,9 +29,13 @@ void check_arguments(const Arguments& arguments) {
     throw Error(ErrorCode::usage, "no folder is named",
                 "Name the one that keeps the sweep, " + example + "out.");
   }
-  if (arguments.given.contains("threshold") && arguments.given.contains("threshold-percent")) {
-    throw Error(ErrorCode::usage, "--threshold and --threshold-percent contradict each other",
-                "Give one of the two.");
+  for (const OptionRow& row : option_table()) {
+    if (arguments.given.contains(row.name) && arguments.given.contains(row.percent)) {
+      throw Error(ErrorCode::usage,
+                  "--" + std::string(row.name) + " and --" + std::string(row.percent) +
+                      " contradict each other",
+                  "Give one of the two.");
+    }
   }
 }
 

@@ -109,12 +109,15 @@ std::string print(const char* format, int precision, double value) {
 
 void set_option(Options& options, const OptionRow& row, const std::string& text) {
   const std::string flag = "--" + std::string(row.name);
-  if (row.name == "threshold" && text.ends_with('%')) {
-    options.threshold_percent =
-        real_number(flag, std::string_view(text).substr(0, text.size() - 1));
+  if (!text.ends_with('%') || !takes_percent(row)) {
+    std::visit([&](auto member) { assign(options.*member, flag, text); }, row.member);
     return;
   }
-  std::visit([&](auto member) { assign(options.*member, flag, text); }, row.member);
+  const double percent = real_number(flag, std::string_view(text).substr(0, text.size() - 1));
+  const bool fraction = row.percent.empty();
+  const OptionRow& target = fraction ? row : option_row(row.percent);
+  options.*std::get<std::optional<double> Options::*>(target.member) =
+      fraction ? percent / 100 : percent;
 }
 
 int whole_number(std::string_view flag, const std::string& text, int low, int high) {

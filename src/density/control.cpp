@@ -3,7 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <numbers>
+#include <numeric>
+#include <string>
+
+#include "leafhull/error.h"
 
 namespace leafhull {
 namespace {
@@ -14,6 +19,24 @@ constexpr double kSmallestRadius = 1e-3;
 /// A share of the mean. Leaf area whose N_iso deviates by less is even: what deviates is the ripple
 /// of its parts, which control must not enlarge.
 constexpr double kLeastSpread = 0.15;
+
+[[noreturn]] void refuse_upside_down(const DensityStatistics& s, const Options& resolved) {
+  char text[200];
+  const auto end = [](std::optional<double> deviations, std::optional<double> percent) {
+    char value[40];
+    std::snprintf(value, sizeof value, percent ? "%g%%" : "%g", percent ? *percent : *deviations);
+    return std::string(value);
+  };
+  std::snprintf(text, sizeof text,
+                "the band is upside down: --band-low %s is a density of %.4g on this tree, "
+                "--band-high %s one of %.4g",
+                end(resolved.band_low, resolved.band_low_percent).c_str(), s.p1,
+                end(resolved.band_high, resolved.band_high_percent).c_str(), s.p2);
+  throw Error(ErrorCode::usage, text, "Give both ends in percent, or both as deviations.");
+}
+
+/// A threshold over the density of a sheet that it keeps whole.
+constexpr double kBelowSheet = 0.6;
 
 Kernel kernel_at(const LeafPoint& leaf, Vec3d radii, int falloff) {
   // A kernel's integral over its own plane is pi R_u R_v / (k + 1).
@@ -37,27 +60,53 @@ DensityStatistics density_statistics(std::span<const LeafPoint> leaves,
     if (!crown.contains(leaves[j].position)) return 0.0;
     return leaves[j].area > 0 ? leaves[j].area : 1.0;
   };
-  DensityStatistics s;
-  double all = 0;
+  double mean = 0, variance = 0, all = 0;
   for (std::size_t j = 0; j < leaves.size(); ++j) {
-    s.mean += weight(j) * static_cast<double>(isotropic_density[j]);
+    mean += weight(j) * static_cast<double>(isotropic_density[j]);
     all += weight(j);
   }
-  s.mean /= all;
+  mean /= all;
   for (std::size_t j = 0; j < leaves.size(); ++j) {
-    const double above = static_cast<double>(isotropic_density[j]) - s.mean;
-    s.variance += weight(j) * above * above;
+    const double above = static_cast<double>(isotropic_density[j]) - mean;
+    variance += weight(j) * above * above;
   }
-  return band(s.mean, s.variance / all, resolved);
+  std::vector<std::size_t> ranked;
+  const auto quantile = [&](double share) {
+    if (ranked.empty()) {
+      ranked.resize(leaves.size());
+      std::iota(ranked.begin(), ranked.end(), std::size_t{0});
+      std::ranges::stable_sort(ranked, {}, [&](std::size_t j) { return isotropic_density[j]; });
+      std::erase_if(ranked, [&](std::size_t j) { return weight(j) == 0; });
+    }
+    double up_to = 0;
+    for (const std::size_t j : ranked) {
+      up_to += weight(j);
+      if (up_to >= share * all) return static_cast<double>(isotropic_density[j]);
+    }
+    return static_cast<double>(isotropic_density[ranked.back()]);
+  };
+  return band(mean, variance / all, quantile, resolved);
 }
 
-DensityStatistics band(double mean, double variance, const Options& resolved) {
+DensityStatistics band(double mean, double variance, const DensityQuantile& quantile,
+                       const Options& resolved) {
+  const bool area = resolved.points == PointSource::area;
   double spread = resolved.spread == Spread::stddev ? std::sqrt(variance) : variance;
-  if (resolved.points == PointSource::area) spread = std::max(spread, kLeastSpread * mean);
-  return {.mean = mean,
-          .variance = variance,
-          .p1 = mean + resolved.band_low * spread,
-          .p2 = mean + resolved.band_high * spread};
+  if (area) spread = std::max(spread, kLeastSpread * mean);
+  const auto end = [&](std::optional<double> deviations, std::optional<double> percent) {
+    return percent ? quantile(*percent / 100) : mean + *deviations * spread;
+  };
+  DensityStatistics s{.mean = mean,
+                      .variance = variance,
+                      .p1 = end(resolved.band_low, resolved.band_low_percent),
+                      .p2 = end(resolved.band_high, resolved.band_high_percent)};
+  if (s.p1 > s.p2) refuse_upside_down(s, resolved);
+  if (area && resolved.band_low_percent && resolved.band_high_percent) {
+    const double missing = std::max(0.0, 2 * kLeastSpread * mean - (s.p2 - s.p1));
+    s.p1 -= missing / 2;
+    s.p2 += missing / 2;
+  }
+  return s;
 }
 
 std::vector<Kernel> isotropic_kernels(std::span<const LeafPoint> leaves, double radius_max,
@@ -106,9 +155,8 @@ Kernel controlled_kernel(const LeafPoint& leaf, float density, const DensityStat
                    resolved.falloff);
 }
 
-double clear_of_sheets(std::vector<WeightedDensity>& densities, double threshold, double coverage) {
-  constexpr double kFilm = 1.2, kMost = 0.5, kBelowSheet = 0.6, kNearlyAll = 0.98;
-  if (coverage >= kNearlyAll) threshold = std::min(threshold, kBelowSheet);
+std::optional<double> below_film(std::vector<WeightedDensity>& densities, double threshold) {
+  constexpr double kFilm = 1.2, kMost = 0.5;
   std::ranges::sort(densities, {}, &WeightedDensity::density);
   std::uint64_t above = 0, film = 0;
   for (const WeightedDensity& d : densities) {
@@ -116,14 +164,20 @@ double clear_of_sheets(std::vector<WeightedDensity>& densities, double threshold
     if (n >= threshold) above += d.weight;
     if (n >= threshold && n < kFilm * threshold) film += d.weight;
   }
-  if (static_cast<double>(film) <= kMost * static_cast<double>(above)) return threshold;
+  if (static_cast<double>(film) <= kMost * static_cast<double>(above)) return {};
   std::uint64_t below_middle = 0;
   for (const WeightedDensity& d : densities) {
     if (static_cast<double>(d.density) < threshold) continue;
     below_middle += d.weight;
     if (2 * below_middle >= above) return kBelowSheet * static_cast<double>(d.density);
   }
-  return threshold;
+  return {};
+}
+
+double clear_of_sheets(std::vector<WeightedDensity>& densities, double threshold, double coverage) {
+  constexpr double kNearlyAll = 0.98;
+  if (coverage >= kNearlyAll) threshold = std::min(threshold, kBelowSheet);
+  return below_film(densities, threshold).value_or(threshold);
 }
 
 double threshold_for_coverage(std::span<const float> density, double coverage) {

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -18,8 +20,13 @@ DensityStatistics density_statistics(std::span<const LeafPoint> leaves,
                                      std::span<const float> isotropic_density, const Box& crown,
                                      const Options& resolved);
 
-/// The same from a mean and a variance.
-DensityStatistics band(double mean, double variance, const Options& resolved);
+/// The density that a share of the leaf area, from 0 to 1, does not exceed.
+using DensityQuantile = std::function<double(double share)>;
+
+/// The same from a mean, a variance and quantiles.
+/// @throws Error usage: p1 above p2.
+DensityStatistics band(double mean, double variance, const DensityQuantile& quantile,
+                       const Options& resolved);
 
 /// The kernels that measure N_iso: radius `radius_max` (model units) in every direction. A kernel
 /// of leaf area a has the weight (k + 1) a / (pi R_u R_v), so that N counts layers of leaf; one at
@@ -48,11 +55,15 @@ struct WeightedDensity {
   std::uint64_t weight = 1;
 };
 
-/// T for a coverage of leaf area, `threshold` being its quantile, such that sheets of leaf are not
-/// torn. N is 1 on a sheet that lies alone, and at a T next to that the surface would be a film
+/// N is 1 on a sheet of leaf that lies alone, and at a T next to that the surface would be a film
 /// with holes. So where most of the area above T is above it by less than a fifth, as on closed
-/// crowns, T is 0.6 of what that area has in the middle; and where nearly all leaves are asked for,
-/// 0.98 or more, T is at most 0.6. `densities` come back sorted.
+/// crowns: 0.6 of what that area has in the middle, which does not tear it. `densities` come back
+/// sorted.
+std::optional<double> below_film(std::vector<WeightedDensity>& densities, double threshold);
+
+/// T for a coverage of leaf area, `threshold` being its quantile, such that sheets of leaf are not
+/// torn: below a film, and where nearly all leaves are asked for, 0.98 or more, at most 0.6.
+/// `densities` come back sorted.
 double clear_of_sheets(std::vector<WeightedDensity>& densities, double threshold, double coverage);
 
 /// T such that the fraction `coverage` of the densities is at least T: halfway between the two

@@ -69,6 +69,7 @@ Options alone(const LeafSet& leaves, int level, Options resolved) {
   resolved.voxel_size.reset();
   resolved.radius_max = radius_max_in_model_units(leaves, resolved) * std::ldexp(1.0, level);
   resolved.radius_unit = RadiusUnit::model;
+  resolved.dilation.reset();  // which has found R_max
   return resolve(resolved);
 }
 
@@ -83,6 +84,11 @@ ForestModel prepare_model(const LeafSet& all, int level, const Options& resolved
 
   ForestModel model;
   model.kernels = stages.take_kernels();
+  if (resolved.erosion) {
+    for (Kernel& k : model.kernels) {
+      k.weight = static_cast<float>(static_cast<double>(k.weight) / report.threshold);
+    }
+  }
   model.isotropic_density = stages.take_isotropic_density();
   model.density = stages.take_density_there();
   LeafPoints points = stages.take_points();
@@ -119,6 +125,7 @@ double weighted_mean(const std::vector<ForestModel>& models, std::span<const Mod
 double threshold_of(const ForestLevel& level, std::span<const ModelUse> uses,
                     const ForestLevel* finest) {
   const Options& options = level.options;
+  if (options.erosion) return 1;
   if (options.coverage) {
     double all_area = 0;
     for (std::size_t m = 0; m < level.models.size(); ++m) {
@@ -201,30 +208,45 @@ std::vector<LeafSet> read_models(const Scene& scene, std::span<const ModelUse> u
   return models;
 }
 
+std::vector<Options> shapes_of(std::span<const LeafSet> models, std::span<const ModelUse> uses,
+                               const Options& resolved, Device& device) {
+  std::vector<Options> shapes(models.size(), resolved);
+  for (std::size_t m = 0; m < models.size() && resolved.dilation; ++m) {
+    if (uses[m].trees == 0) continue;
+    const Progress no_progress;
+    Stopwatch watch(no_progress);
+    Report report;
+    report.options = resolved;
+    Stages(models[m], device, watch).prepare(report);
+    shapes[m].radius_max = report.options.radius_max;
+  }
+  return shapes;
+}
+
 double voxel_size_of(std::span<const LeafSet> models, std::span<const ModelUse> uses,
-                     const Options& resolved) {
-  if (resolved.voxel_size) return *resolved.voxel_size;
+                     std::span<const Options> shapes) {
+  if (shapes.front().voxel_size) return *shapes.front().voxel_size;
   double side = 0;
   for (std::size_t m = 0; m < models.size(); ++m) {
     if (uses[m].trees == 0) continue;
-    const double radius = radius_max_in_model_units(models[m], resolved);
+    const double radius = radius_max_in_model_units(models[m], shapes[m]);
     side = std::max(side, uses[m].largest * (models[m].crown.longest_side() + 2 * radius));
   }
-  return side / *resolved.resolution;
+  return side / *shapes.front().resolution;
 }
 
 ForestLevel prepare_level(int number, std::span<const LeafSet> models,
-                          std::span<const ModelUse> uses, const Options& resolved,
+                          std::span<const ModelUse> uses, std::span<const Options> shapes,
                           double voxel_size, const ForestLevel* finest, Device& device) {
   ForestLevel level;
   level.level = number;
-  level.options = resolved;
+  level.options = shapes.front();
   level.voxel_size = std::ldexp(voxel_size, number);
   level.models.resize(models.size());
   double radius_max = 0;
   for (std::size_t m = 0; m < models.size(); ++m) {
     if (uses[m].trees == 0) continue;
-    level.models[m] = prepare_model(models[m], number, resolved, device);
+    level.models[m] = prepare_model(models[m], number, shapes[m], device);
     level.reach = std::max(level.reach, level.models[m].reach * uses[m].largest);
     radius_max = std::max(radius_max, level.models[m].radius_max * uses[m].largest);
   }

@@ -77,16 +77,22 @@ std::vector<ModelUse> model_uses(const Scene& scene);
 std::vector<LeafSet> read_models(const Scene& scene, std::span<const ModelUse> uses,
                                  const LeafOptions& options);
 
+/// The options of each model, which differ where a dilation finds R_max model by model.
+/// @throws Error as Stages::prepare does.
+std::vector<Options> shapes_of(std::span<const LeafSet> models, std::span<const ModelUse> uses,
+                               const Options& resolved, Device& device);
+
 /// The voxel size of level 0: as asked for, or such that the resolution counts along the largest
 /// tree.
 double voxel_size_of(std::span<const LeafSet> models, std::span<const ModelUse> uses,
-                     const Options& resolved);
+                     std::span<const Options> shapes);
 
 /// Prepares a level: kernels of every model and T. T as a coverage or a
 /// percentage of m is taken over the leaf vertices of all trees, each tree standing alone; T itself
-/// keeps its ratio to m from level to level. `finest`: level 0, for the others.
+/// keeps its ratio to m from level to level. An erosion is of each model: its kernels' weights are
+/// divided by its own T, and T is 1. `finest`: level 0, for the others.
 ForestLevel prepare_level(int level, std::span<const LeafSet> models,
-                          std::span<const ModelUse> uses, const Options& resolved,
+                          std::span<const ModelUse> uses, std::span<const Options> shapes,
                           double voxel_size, const ForestLevel* finest, Device& device);
 
 /// The level's `least`: the share that the options ask for, of the largest piece of the smallest

@@ -57,6 +57,11 @@ void check(const ForestOptions& options) {
     }
     return;
   }
+  if (options.control_scope == ControlScope::scene &&
+      (options.shape.erosion || options.shape.dilation)) {
+    refuse("--erosion and --dilation are of each model, and --control-scope is scene",
+           "Leave out one of the two.");
+  }
   if (options.shape.density == DensitySource::grid) {
     refuse("--density grid is of a single tree", "Leave it out, or add --merge none.");
   }
@@ -175,12 +180,13 @@ class Run {
     const Options resolved = resolved_shape(options_);
     const std::vector<ModelUse> uses = model_uses(scene_);
     const std::vector<LeafSet> models = read_models(scene_, uses, resolved.leaf_options());
-    const double voxel_size = voxel_size_of(models, uses, resolved);
-    check_tile_count(scene_, models, resolved, voxel_size, options_.tile.value_or(kTileEdge),
+    const std::vector<Options> shapes = shapes_of(models, uses, resolved, device_);
+    const double voxel_size = voxel_size_of(models, uses, shapes);
+    check_tile_count(scene_, models, shapes, voxel_size, options_.tile.value_or(kTileEdge),
                      folder_);
     for (int l = 0; l < options_.levels; ++l) {
       const ForestLevel* finest = l > 0 ? &forest_.levels.front() : nullptr;
-      ForestLevel level = prepare_level(l, models, uses, resolved, voxel_size, finest, device_);
+      ForestLevel level = prepare_level(l, models, uses, shapes, voxel_size, finest, device_);
       level.scope = options_.control_scope;
       forest_.levels.push_back(std::move(level));
     }
@@ -234,6 +240,8 @@ class Run {
     for (const ForestLevel& level : forest_.levels) {
       levels.push_back({{"mean", level.scene_statistics->mean},
                         {"variance", level.scene_statistics->variance},
+                        {"p1", level.scene_statistics->p1},
+                        {"p2", level.scene_statistics->p2},
                         {"threshold", level.threshold}});
     }
     store_->keep_control(levels);
@@ -248,9 +256,12 @@ class Run {
     const Json levels = Json::parse(kept);
     for (std::size_t l = 0; l < forest_.levels.size(); ++l) {
       ForestLevel& level = forest_.levels[l];
-      level.scene_statistics =
-          band(levels.at(l).at("mean"), levels.at(l).at("variance"), level.options);
-      level.threshold = levels.at(l).at("threshold");
+      const Json& kept_level = levels.at(l);
+      level.scene_statistics = DensityStatistics{.mean = kept_level.at("mean"),
+                                                 .variance = kept_level.at("variance"),
+                                                 .p1 = kept_level.at("p1"),
+                                                 .p2 = kept_level.at("p2")};
+      level.threshold = kept_level.at("threshold");
     }
     return true;
   }

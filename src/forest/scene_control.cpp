@@ -69,6 +69,18 @@ class Histogram {
     return next > 0 ? (end_of(bin) + end_of(next - 1)) / 2 : end_of(bin);
   }
 
+  /// The lower end of the lowest bin that has at least `share` of all in it and below.
+  double not_exceeded_by(double share) const {
+    std::uint64_t all = 0, up_to = 0;
+    for (const std::uint64_t c : counts_) all += c;
+    std::uint32_t bin = 0;
+    for (; bin + 1 < kBins; ++bin) {
+      up_to += counts_[bin];
+      if (up_to > 0 && static_cast<double>(up_to) >= share * static_cast<double>(all)) break;
+    }
+    return end_of(bin);
+  }
+
   std::span<std::uint64_t> counts() { return counts_; }
 
   /// The lower ends of the bins, and how much lies in each.
@@ -138,12 +150,18 @@ void control_over_scene(const Scene& scene, const TilePlan& plan, int edge,
                         const TilesDone& advance) {
   const auto task = [&](std::size_t t) { return TileTask{plan.tiles()[t], edge, plan.trees(t)}; };
   Moments mine;
+  Histogram isotropic;
   for_each_tile(plan, ranks, advance, [&](std::size_t t) {
-    for (const WeightedDensity& n : isotropic_density_in(scene, level, task(t), device))
+    for (const WeightedDensity& n : isotropic_density_in(scene, level, task(t), device)) {
       mine.add(n);
+      isotropic.add(n);
+    }
   });
   const Moments moments = together(mine, ranks);
-  level.scene_statistics = band(moments.mean(), moments.variance(), level.options);
+  ranks.sum(isotropic.counts());
+  level.scene_statistics = band(
+      moments.mean(), moments.variance(),
+      [&](double share) { return isotropic.not_exceeded_by(share); }, level.options);
 
   if (!level.options.coverage) {
     level.threshold = threshold_of(level, finest, moments.mean());

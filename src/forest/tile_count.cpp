@@ -42,14 +42,14 @@ Box reached_box(const PlacedTree& tree, const Box& bounds, double reach, double 
   return box;
 }
 
-void check_tile_count(const Scene& scene, std::span<const LeafSet> models, const Options& resolved,
-                      double voxel_size, int edge, const std::filesystem::path& folder) {
+void check_tile_count(const Scene& scene, std::span<const LeafSet> models,
+                      std::span<const Options> shapes, double voxel_size, int edge, const std::filesystem::path& folder) {
   const double side = edge * voxel_size;
   double tiles = 0;
   Box all;
   for (const PlacedTree& tree : scene.trees) {
     const LeafSet& leaves = models[tree.model];
-    const double reach = radius_max_in_model_units(leaves, resolved);
+    const double reach = radius_max_in_model_units(leaves, shapes[tree.model]);
     const Box box = reached_box(tree, leaves.bounds, reach, voxel_size);
     all.include(box.low);
     all.include(box.high);

@@ -87,7 +87,9 @@ Json metrics(const Report& report) {
           {"on_voxels", metrics.on_voxels},
           {"off_site_exact", metrics.off_site_exact},
           {"off_site_sampled", metrics.off_site_sampled},
-          {"covered", report.covered}};
+          {"covered", report.covered},
+          {"erosion", metrics.erosion},
+          {"dilation", metrics.dilation}};
 }
 
 }  // namespace

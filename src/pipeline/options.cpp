@@ -25,12 +25,20 @@ constexpr std::string_view kPresetNames[] = {"paper-32", "paper-64", "paper-128"
 constexpr int kPresetResolutions[] = {32, 64, 128, 64, 128, 256, 512, 1024};
 static_assert(std::size(kPresetNames) == std::size(kPresetResolutions));
 
+/// Ends of the band of control: a1 and a2, or percentages of the leaves.
+struct BandValues {
+  double low, high;
+  bool percent;
+};
+constexpr BandValues kPaperBand = {0, 2, false};
+
 /// What a style stands for. SPEC: 4; Source: Figure 17.
 struct StyleValues {
   Method method;
   PointSource points;
   double radius_max;
   std::optional<double> threshold, coverage;
+  BandValues band;
   double flatness;
   double point_spacing;
   double min_component;
@@ -38,22 +46,22 @@ struct StyleValues {
 
 // Luft and Deussen's spheres are not flattened: 1 keeps them round under another method, too.
 constexpr StyleValues kPaperStyles[] = {
-    {Method::controlled, PointSource::vertices, 1.4, 2.0, {}, 0.7, 0.4, 0},
-    {Method::controlled, PointSource::vertices, 1.6, 2.0, {}, 1.0, 0.4, 0},
-    {Method::isotropic, PointSource::vertices, 1.5, 1.5, {}, 1.0, 0.4, 0},
+    {Method::controlled, PointSource::vertices, 1.4, 2.0, {}, kPaperBand, 0.7, 0.4, 0},
+    {Method::controlled, PointSource::vertices, 1.6, 2.0, {}, kPaperBand, 1.0, 0.4, 0},
+    {Method::isotropic, PointSource::vertices, 1.5, 1.5, {}, kPaperBand, 1.0, 0.4, 0},
 };
 constexpr StyleValues kStyles[] = {
-    {Method::controlled, PointSource::area, 3.5, {}, 0.98, 0.8, 0.33, 0.001},
-    {Method::controlled, PointSource::area, 1.4, {}, 0.85, 0.7, 0.33, 0.001},
-    {Method::controlled, PointSource::area, 5.0, {}, 0.99, 1.0, 0.33, 0.001},
-    {Method::isotropic, PointSource::area, 2.5, {}, 0.95, 1.0, 0.33, 0.001},
+    {Method::controlled, PointSource::area, 3.5, {}, 0.98, kPaperBand, 0.8, 0.33, 0.001},
+    {Method::controlled, PointSource::area, 1.4, {}, 0.85, kPaperBand, 0.7, 0.33, 0.001},
+    {Method::controlled, PointSource::area, 5.0, {}, 0.99, kPaperBand, 1.0, 0.33, 0.001},
+    {Method::isotropic, PointSource::area, 2.5, {}, 0.95, kPaperBand, 1.0, 0.33, 0.001},
     kPaperStyles[0],
     kPaperStyles[1],
     kPaperStyles[2],
 };
 /// The first styles with kernels at vertices, as they were before there were others.
 constexpr StyleValues kStylesAtVertices[] = {
-    {Method::controlled, PointSource::vertices, 2.5, {}, 0.92, 0.8, 0.4, 0.001},
+    {Method::controlled, PointSource::vertices, 2.5, {}, 0.92, kPaperBand, 0.8, 0.4, 0.001},
     kPaperStyles[0],
     kPaperStyles[1],
     kPaperStyles[2],
@@ -73,7 +81,8 @@ std::string flag(const OptionRow& row) { return "--" + std::string(row.name); }
 }
 
 void check(const OptionRow& row, double value) {
-  const bool inside = std::isfinite(value) && value <= row.high &&
+  const bool inside = std::isfinite(value) &&
+                      (row.high_open ? value < row.high : value <= row.high) &&
                       (row.low_open ? value > row.low : value >= row.low);
   if (inside) return;
   const std::string what = flag(row) + " " + text(value);
@@ -117,10 +126,18 @@ void check(const OptionRow& row, const std::optional<Value>& value) {
 
 void check_contradictions(const Options& options) {
   const int thresholds = options.threshold.has_value() + options.threshold_percent.has_value() +
-                         options.coverage.has_value();
+                         options.coverage.has_value() + options.erosion.has_value();
   if (thresholds > 1) {
-    refuse("--threshold X, --threshold X% and --coverage contradict each other",
-           "Give one of the three.");
+    refuse("--threshold X, --threshold X%, --coverage and --erosion contradict each other",
+           "Give one of the four.");
+  }
+  if (options.dilation && (options.threshold || options.threshold_percent)) {
+    refuse("--dilation and --threshold contradict each other",
+           "Give --erosion or --coverage in place of --threshold.");
+  }
+  if (options.dilation && options.radius_max) {
+    refuse("--dilation and --radius-max contradict each other",
+           "Give one of the two: a dilation finds R_max.");
   }
   // Resolved options hold a preset beside the resolution it stands for.
   const bool same = options.preset && options.resolution == resolution_of(*options.preset);
@@ -135,11 +152,34 @@ void check_contradictions(const Options& options) {
                std::string(name(options.mesher)),
            "Give --mesher vdb or leave out one of the two.");
   }
-  if (options.band_high < options.band_low) {
-    refuse(
-        "--band-high " + text(options.band_high) + " is below --band-low " + text(options.band_low),
-        "Give a --band-high of at least " + text(options.band_low) + ".");
-  }
+  const auto once = [](const auto& value, const auto& percent, const std::string& flag) {
+    if (value && percent) {
+      refuse(flag + " X and " + flag + " X% contradict each other", "Give one of the two.");
+    }
+  };
+  once(options.band_low, options.band_low_percent, "--band-low");
+  once(options.band_high, options.band_high_percent, "--band-high");
+}
+
+/// Of resolved options. Ends of different kinds are compared once the densities are known.
+void check_band(const Options& options) {
+  const auto upright = [](const auto& low, const auto& high, const std::string& unit) {
+    if (!low || !high || *low <= *high) return;
+    const std::string least = text(*low) + unit;
+    refuse("--band-high " + text(*high) + unit + " is below --band-low " + least,
+           "Give a --band-high of at least " + least + ".");
+  };
+  upright(options.band_low, options.band_high, "");
+  upright(options.band_low_percent, options.band_high_percent, "%");
+}
+
+void set_band(Options& options, const BandValues& band) {
+  const auto set = [&](auto& value, auto& percent, double by_style) {
+    if (!value && !percent) (band.percent ? percent : value) = by_style;
+  };
+  set(options.band_low, options.band_low_percent, band.low);
+  set(options.band_high, options.band_high_percent, band.high);
+  check_band(options);
 }
 
 const StyleValues& values_of(const Options& options) {
@@ -164,13 +204,14 @@ std::span<const std::string_view> names(Preset) { return kPresetNames; }
 int resolution_of(Preset preset) { return kPresetResolutions[static_cast<std::size_t>(preset)]; }
 
 double radius_max_in_model_units(const LeafSet& leaves, const Options& resolved) {
+  const double radius_max = resolved.radius_max.value_or(values_of(resolved).radius_max);
   switch (resolved.radius_unit) {
     case RadiusUnit::crown:
-      return *resolved.radius_max * leaves.crown.longest_side() / kCrownUnits;
+      return radius_max * leaves.crown.longest_side() / kCrownUnits;
     case RadiusUnit::leaf:
-      return *resolved.radius_max * leaves.mean_radius_major;
+      return radius_max * leaves.mean_radius_major;
     case RadiusUnit::model:
-      return *resolved.radius_max;
+      return radius_max;
   }
   throw Error(ErrorCode::internal, "unknown radius unit");
 }
@@ -183,17 +224,27 @@ Options resolve(Options options) {
 
   const StyleValues& style = values_of(options);
   if (!options.method) options.method = style.method;
-  if (!options.radius_max) options.radius_max = style.radius_max;
+  if (options.dilation) {
+    options.radius_unit = RadiusUnit::crown;
+  } else if (!options.radius_max) {
+    options.radius_max = style.radius_max;
+  }
   if (!options.flatness) options.flatness = style.flatness;
+  set_band(options, style.band);
   if (!options.points) options.points = style.points;
   if (!options.point_spacing) options.point_spacing = style.point_spacing;
   if (!options.min_component) options.min_component = style.min_component;
   if (!options.hollows) {
     options.hollows = options.points == PointSource::area ? Hollows::fill : Hollows::keep;
   }
-  if (!options.threshold && !options.threshold_percent && !options.coverage) {
+  if (!options.threshold && !options.threshold_percent && !options.coverage && !options.erosion) {
     options.threshold = style.threshold;
     options.coverage = style.coverage;
+    if (options.dilation && options.threshold) {
+      refuse("--style " + std::string(name(options.style)) +
+                 " has a threshold of its own, which contradicts --dilation",
+             "Add --erosion or --coverage.");
+    }
   }
   if (!options.resolution && !options.voxel_size) {
     if (!options.preset) options.preset = Preset::standard;

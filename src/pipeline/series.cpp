@@ -35,7 +35,11 @@ std::vector<std::vector<Entry>> groups_of(const LeafSet& leaves, std::span<const
                    [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<std::vector<Entry>> groups;
   for (std::size_t i = 0; i < entries.size(); ++i) {
-    if (i == 0 || entries[i].first != entries[i - 1].first) groups.emplace_back();
+    // Where R_max is still to be found, no other is known to share it.
+    const bool alone = entries[i].second.report.options.dilation.has_value();
+    const bool is_new = i == 0 || alone || groups.back().front().report.options.dilation ||
+                        entries[i].first != entries[i - 1].first;
+    if (is_new) groups.emplace_back();
     groups.back().push_back(std::move(entries[i].second));
   }
   return groups;

@@ -3,12 +3,14 @@
 #include "pipeline/stages.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <limits>
 #include <string>
 
 #include "density/control.h"
 #include "leafhull/error.h"
+#include "pipeline/find_radius.h"
 #include "pipeline/grid.h"
 #include "pipeline/memory.h"
 #include "surface/brick_mesher.h"
@@ -33,7 +35,12 @@ DensityKey density_key(const Report& report) {
 
 KernelsKey kernels_key(const Report& report) {
   const Options& o = report.options;
-  return {density_key(report), *o.method, *o.flatness, o.spread, o.band_low, o.band_high};
+  return {density_key(report),
+          *o.method,
+          *o.flatness,
+          o.spread,
+          {o.band_low, o.band_low_percent},
+          {o.band_high, o.band_high_percent}};
 }
 
 Lattice lattice_of(const LeafSet& leaves, const Report& report) {
@@ -56,27 +63,82 @@ std::vector<Vec3d> positions_of(const std::vector<Point>& points) {
   return positions;
 }
 
+std::vector<WeightedDensity> weighted(std::span<const float> density) {
+  std::vector<WeightedDensity> all;
+  all.reserve(density.size());
+  for (const float n : density) all.push_back({n});
+  return all;
+}
+
 /// T for a coverage.
 double threshold_for(const Options& options, std::span<const float> density) {
   const double threshold = threshold_for_coverage(density, *options.coverage);
   if (options.points != PointSource::area) return threshold;
-  std::vector<WeightedDensity> all;
-  all.reserve(density.size());
-  for (const float n : density) all.push_back({n});
+  std::vector<WeightedDensity> all = weighted(density);
   return clear_of_sheets(all, threshold, *options.coverage);
+}
+
+double share_below(std::span<const float> density, double threshold) {
+  const auto below = std::ranges::count_if(
+      density, [&](float n) { return static_cast<double>(n) < threshold; });
+  return static_cast<double>(below) / static_cast<double>(density.size());
+}
+
+/// Both sliders keep what was asked for within this.
+constexpr double kSliderError = 0.01;
+
+/// T that leaves the share `erosion` outside.
+/// @throws Error usage: no T does, or only one that tears a sheet.
+double threshold_for_erosion(const Options& options, double erosion,
+                             std::span<const float> density) {
+  const double threshold = threshold_for_coverage(density, 1 - erosion);
+  char text[200];
+  if (options.points == PointSource::area) {
+    std::vector<WeightedDensity> all = weighted(density);
+    if (const std::optional<double> whole = below_film(all, threshold)) {
+      std::snprintf(text, sizeof text,
+                    "an erosion of %.3g cannot be had: most of this tree is sheets of one density, "
+                    "%.3g, and a surface next to that is a film with holes; %.3g can",
+                    erosion, *whole / 0.6, share_below(density, *whole));
+      throw Error(ErrorCode::usage, text, "Give that, or --coverage in place of --erosion.");
+    }
+  }
+  const double below = share_below(density, threshold);
+  const double with_equal = share_below(density, std::nextafter(threshold, HUGE_VAL));
+  if (std::abs(below - erosion) > kSliderError) {
+    std::snprintf(text, sizeof text,
+                  "an erosion of %.3g cannot be had: many leaf vertices have the density %.4g; "
+                  "%.3g can, and %.3g",
+                  erosion, threshold, below, with_equal);
+    throw Error(ErrorCode::usage, text, "Give one of these, or --points area.");
+  }
+  return threshold;
 }
 
 double threshold_of(const Options& options, const DensityStatistics& statistics,
                     std::span<const float> density) {
-  const double threshold = options.threshold ? *options.threshold
-                           : options.threshold_percent
-                               ? *options.threshold_percent / 100 * statistics.mean
-                               : threshold_for(options, density);
+  const double threshold =
+      options.threshold           ? *options.threshold
+      : options.threshold_percent ? *options.threshold_percent / 100 * statistics.mean
+      : options.erosion           ? threshold_for_erosion(options, *options.erosion, density)
+                                  : threshold_for(options, density);
   if (threshold < static_cast<double>(std::numeric_limits<float>::min())) {
     throw Error(ErrorCode::usage, "the threshold T is too small for a density",
                 "Raise --threshold to 1e-30 or more.");
   }
   return threshold;
+}
+
+/// Voxels along the crown grown by R_max where a dilation is counted. Source: p. 53.
+constexpr int kDilationResolution = 64;
+
+double dilation_voxel(const LeafSet& leaves, const Report& report) {
+  return (leaves.crown.longest_side() + 2 * report.radius_max_model) / kDilationResolution;
+}
+
+double dilated_share(const Metrics& metrics) {
+  const auto voxels = static_cast<double>(metrics.inside_voxels + metrics.on_voxels);
+  return voxels == 0 ? 0 : static_cast<double>(metrics.dilated_voxels) / voxels;
 }
 
 /// A coverage is missed by more than this where many places have one density.
@@ -128,6 +190,19 @@ void warn_of_pieces(std::uint64_t pieces, Report& report) {
                             "--min-component to drop the small ones");
 }
 
+[[noreturn]] void refuse_dilation(const RadiusFound& found, const Options& options) {
+  char text[240];
+  const bool least = found.dilation > *options.dilation;
+  std::snprintf(text, sizeof text,
+                "a dilation of %.3g cannot be had on this tree: with R_max %.3g crown units it is "
+                "%.3g, %s",
+                *options.dilation, found.radius, found.dilation,
+                found.radius == kSmallestRadiusMax || found.radius == kLargestRadiusMax
+                    ? (least ? "the least that there is" : "the most that there is")
+                    : "the nearest that there is");
+  throw Error(ErrorCode::usage, text, "Give that, or another --erosion.");
+}
+
 }  // namespace
 
 FieldKey field_key(const Report& report) {
@@ -144,6 +219,22 @@ std::vector<float> Stages::density_at(std::span<const Vec3d> places, const Repor
 }
 
 void Stages::prepare(Report& report) {
+  Options& options = report.options;
+  const bool is_solved = !options.dilation || options.radius_max.has_value();
+  if (is_solved) return prepare_at(report);
+  const double start = radius_max_in_model_units(leaves_, options) /
+                       (leaves_.crown.longest_side() / kCrownUnits);
+  const RadiusFound found = find_radius(*options.dilation, start, [&](double radius) {
+    options.radius_max = radius;
+    prepare_at(report);
+    return dilation(report);
+  });
+  options.radius_max = found.radius;
+  prepare_at(report);
+  if (!found.reached) refuse_dilation(found, options);
+}
+
+void Stages::prepare_at(Report& report) {
   const Options& options = report.options;
   report.device =
       device_.info().name + " (" + device_.info().platform + ", " + device_.info().variant + ")";
@@ -249,28 +340,52 @@ Field Stages::without_hollows(Field field, const Report& prepared) const {
   return fill_hollows(std::move(field));
 }
 
-Polygons Stages::polygonise(const Field& field, Mesher mesher, Report& report) const {
+Polygons Stages::polygonise(const Field& field, Mesher mesher, Report& report) {
   watch_.start("polygonise");
   const Options& options = report.options;
   Polygons polygons = mesher == Mesher::bricks && options.adaptivity == 0
                           ? mesh_bricks(field)
                           : leafhull::polygonise(field, options.adaptivity);
-  const ComponentCount components = drop_small_components(polygons, *options.min_component);
+  ComponentCount components = drop_small_components(polygons, *options.min_component);
+  dropped_cells_ = std::move(components.dropped_cells);
   report.counts.components = components.kept;
   warn_of_pieces(components.kept, report);
   report.counts.dropped_components = components.dropped;
   return polygons;
 }
 
-void Stages::measure(const Field& field, Report& report) const {
+Metrics Stages::metrics_of(const Field& field, const Lattice& lattice, const Report& report) const {
+  const bool area = report.options.points == PointSource::area;
+  return leafhull::measure(
+      field, local(points_.value.samples, lattice),
+      area ? local(positions_of(leaves_.vertices), lattice) : std::vector<Vec3d>());
+}
+
+double Stages::dilation(const Report& prepared) {
+  const Options& options = prepared.options;
+  watch_.start("dilation");
+  dilation_.update({kernels_key(prepared), prepared.threshold, *options.hollows}, [&] {
+    const Lattice lattice = Lattice::near(leaves_.crown.low, dilation_voxel(leaves_, prepared));
+    DensityFunction density(device_, kernels_.value, hash_.value, lattice, options.falloff);
+    auto sampled = density.sample_band({prepared.threshold}, 1, false, Lists::forget, [](double) {});
+    const bool fill = options.hollows == Hollows::fill;
+    return dilated_share(metrics_of(
+        fill ? fill_hollows(std::move(sampled.field)) : std::move(sampled.field), lattice,
+        prepared));
+  });
+  return dilation_.value;
+}
+
+void Stages::measure(const Field& field, Report& report) {
   watch_.start("metrics");
   const Lattice lattice = lattice_of(leaves_, report);
   const std::uint64_t off_site = report.metrics.off_site_exact;
-  const bool area = report.options.points == PointSource::area;
-  report.metrics = leafhull::measure(
-      field, local(points_.value.samples, lattice),
-      area ? local(positions_of(leaves_.vertices), lattice) : std::vector<Vec3d>());
+  report.metrics = metrics_of(field, lattice, report);
   report.metrics.off_site_exact = off_site;
+  const bool is_known = report.voxel_size == dilation_voxel(leaves_, report);
+  report.metrics.dilation = is_known ? dilated_share(report.metrics) : dilation(report);
+  report.metrics.erosion = share_outside(field, local(points_.value.samples, lattice),
+                                         density_there_.value, dropped_cells_);
   report.counts.evaluated_voxels = field.sample_count();
   report.counts.evaluated_pairs = sampled_.value.pairs;
 }
@@ -285,6 +400,7 @@ void Stages::refuse_empty(const Field& field, const Report& report) const {
                 field.threshold(), static_cast<double>(std::max(field.highest(), *at_leaves)));
   const char* lower = options.threshold           ? "Lower --threshold"
                       : options.threshold_percent ? "Lower --threshold-percent"
+                      : options.erosion           ? "Lower --erosion"
                                                   : "Give --threshold 50% in place of --coverage";
   throw Error(ErrorCode::empty, text,
               std::string(lower) + ", enlarge --radius-max, or take a finer --resolution.");

@@ -47,8 +47,10 @@ using PointsKey = std::tuple<PointSource, double>;
 /// What N_iso depends on: the points, R_max, k, where it is taken, and the voxel size if from the
 /// lattice.
 using DensityKey = std::tuple<PointsKey, double, int, DensitySource, double>;
-/// What the kernels depend on: N_iso, the method, lambda_R, the spread, a1 and a2.
-using KernelsKey = std::tuple<DensityKey, Method, double, Spread, double, double>;
+/// An end of the band as a deviation, or in percent of the leaves.
+using BandEnd = std::tuple<std::optional<double>, std::optional<double>>;
+/// What the kernels depend on: N_iso, the method, lambda_R, the spread, and the band's ends.
+using KernelsKey = std::tuple<DensityKey, Method, double, Spread, BandEnd, BandEnd>;
 /// What the field depends on beside T: the kernels, the voxel size, the margin, dense or not.
 using FieldKey = std::tuple<KernelsKey, double, int, bool>;
 
@@ -67,7 +69,9 @@ class Stages {
       : leaves_(leaves), device_(device), watch_(watch), lists_(lists) {}
 
   /// Steps 1 to 5 for the report's options, which are resolved, and T: sets what the report says
-  /// of the grid, the density, T, the leaves and the device.
+  /// of the grid, the density, T, the leaves and the device. Where the options ask for a dilation
+  /// and have no R_max yet, finds and sets it.
+  /// @throws Error usage: an erosion or a dilation that this tree cannot have.
   void prepare(Report& report);
 
   /// What sample() would take, the last field given back.
@@ -86,10 +90,10 @@ class Stages {
   /// Step 7: the surface of such a field, small components dropped, which sets
   /// their counts. No polygons where no sample reaches T. `mesher` is for surfaces without
   /// adaptivity; both give the same vertices and quads, in orders of their own.
-  Polygons polygonise(const Field& field, Mesher mesher, Report& report) const;
+  Polygons polygonise(const Field& field, Mesher mesher, Report& report);
 
-  /// The paper's metrics and the counts of a field.
-  void measure(const Field& field, Report& report) const;
+  /// The paper's metrics and the counts of a field, polygonise() having told its pieces.
+  void measure(const Field& field, Report& report);
 
   /// Says why the surface is empty.
   [[noreturn]] void refuse_empty(const Field& field, const Report& report) const;
@@ -109,6 +113,12 @@ class Stages {
     std::shared_ptr<const BrickList> lists;
   };
 
+  void prepare_at(Report& report);
+  /// Of a field of the report's tree.
+  Metrics metrics_of(const Field& field, const Lattice& lattice, const Report& report) const;
+  /// What Metrics says.
+  double dilation(const Report& prepared);
+
   std::vector<float> density_at(std::span<const Vec3d> places, const Report& report,
                                 std::span<const Kernel> kernels) const;
 
@@ -126,6 +136,8 @@ class Stages {
   Kept<KernelsKey, std::vector<float>> density_there_;  ///< N at the places on the leaves
   std::optional<DensityFunction> density_;
   Kept<std::tuple<FieldKey, std::vector<double>>, Sampled> sampled_;
+  Kept<std::tuple<KernelsKey, double, Hollows>, double> dilation_;  ///< by T
+  std::vector<Coord> dropped_cells_;  ///< of the last polygonise()
 };
 
 }  // namespace leafhull

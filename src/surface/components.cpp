@@ -90,11 +90,17 @@ ComponentCount drop_small_components(Polygons& polygons, double smallest) {
   std::vector<std::uint32_t> moved_to(vertices);
   std::uint32_t next = 0;
   for (std::uint32_t v = 0; v < vertices; ++v) {
-    if (!stays(v)) continue;
+    if (!stays(v)) {
+      count.dropped_cells.push_back(cell_of(Vec3d(polygons.points[v])));
+      continue;
+    }
     moved_to[v] = next;
     polygons.points[next] = polygons.points[v];
     ++next;
   }
+  std::ranges::sort(count.dropped_cells);
+  const auto repeated = std::ranges::unique(count.dropped_cells);
+  count.dropped_cells.erase(repeated.begin(), repeated.end());
   polygons.points.resize(next);
   std::erase_if(polygons.faces, [&](const auto& face) { return !stays(face[0]); });
   tbb::parallel_for(std::size_t{0}, polygons.faces.size(), [&](std::size_t f) {

@@ -123,19 +123,14 @@ void refuse_twice(const OptionRow& row, std::string_view text,
   }
 }
 
-const OptionRow& row_named(std::string_view name) {
-  const auto rows = option_table();
-  return *std::find_if(rows.begin(), rows.end(), [&](const auto& row) { return row.name == name; });
-}
-
 /// Takes the % from every number. @return whether they had one.
 bool take_percent(const OptionRow& row, std::string_view text,
                   std::vector<std::string_view>& parts) {
   const auto has_percent = [](std::string_view part) { return part.ends_with('%'); };
   const auto count = std::count_if(parts.begin(), parts.end(), has_percent);
-  if (row.name != "threshold" || count == 0) return false;
+  if (!takes_percent(row) || count == 0) return false;
   if (count != std::ssize(parts)) {
-    refuse(row, text, "mixes densities and percentages",
+    refuse(row, text, "mixes plain numbers and percentages",
            "Write % after every number or none, such as 30%:60%:10%.");
   }
   for (std::string_view& part : parts) part.remove_suffix(1);
@@ -168,6 +163,10 @@ SweptOption swept_option(const OptionRow& row, std::string_view text) {
   const bool percent = take_percent(row, text, parts);
   std::vector<double> numbers;
   for (const std::string_view part : parts) numbers.push_back(number(row, text, part));
+  const bool fraction = percent && row.percent.empty();
+  if (fraction) {
+    for (double& n : numbers) n /= 100;
+  }
   std::vector<std::string> values;
   if (is_range) {
     values = range(row, text, numbers);
@@ -175,7 +174,7 @@ SweptOption swept_option(const OptionRow& row, std::string_view text) {
     std::transform(numbers.begin(), numbers.end(), std::back_inserter(values), shortest);
   }
   refuse_twice(row, text, values);
-  return {percent ? &row_named("threshold-percent") : &row, values};
+  return {percent && !fraction ? &option_row(row.percent) : &row, values};
 }
 
 std::size_t combination_count(std::span<const SweptOption> swept) {

@@ -234,9 +234,10 @@ PlacedTree placed(Vec3d position, double yaw, double scale) {
 ForestLevel level_of(const Scene& scene, int number, const Options& options, double voxel_size) {
   const std::vector<LeafSet> models{find_leaves(test::card_tree(), {})};
   const std::vector<ModelUse> uses = model_uses(scene);
-  const ForestLevel finest = prepare_level(0, models, uses, options, voxel_size, nullptr, device());
+  const std::vector<Options> shapes(models.size(), options);
+  const ForestLevel finest = prepare_level(0, models, uses, shapes, voxel_size, nullptr, device());
   return number == 0 ? finest
-                     : prepare_level(number, models, uses, options, voxel_size, &finest, device());
+                     : prepare_level(number, models, uses, shapes, voxel_size, &finest, device());
 }
 
 /// The triangles of all tiles, in world coordinates.

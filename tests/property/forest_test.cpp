@@ -132,10 +132,11 @@ std::size_t open_edges(const Surface& surface) {
 ForestLevel level_of(const Scene& scene, int number = 0, const Options& resolved = options()) {
   const std::vector<LeafSet> models{crown(1, 900, 3), crown(2, 500, 2)};
   const std::vector<ModelUse> uses = model_uses(scene);
-  const ForestLevel finest = prepare_level(0, models, uses, resolved, 0.2, nullptr, device());
+  const std::vector<Options> shapes(models.size(), resolved);
+  const ForestLevel finest = prepare_level(0, models, uses, shapes, 0.2, nullptr, device());
   // Its `least` stays 0: small pieces over seams are known once all tiles are.
   return number == 0 ? finest
-                     : prepare_level(number, models, uses, resolved, 0.2, &finest, device());
+                     : prepare_level(number, models, uses, shapes, 0.2, &finest, device());
 }
 
 void expect_same(const Surface& a, const Surface& b) {

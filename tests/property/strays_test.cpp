@@ -93,8 +93,9 @@ TEST_P(Strays, KeepTheCrownUnitTheVoxelsAndTheVolume) {
 TEST_P(Strays, KeepTheVoxelsOfAForest) {
   const Options options = resolve({});
   const std::vector<ModelUse> uses{{.trees = 1, .largest = 1, .smallest_volume = 1}};
-  EXPECT_EQ(voxel_size_of(std::vector{all_}, uses, options),
-            voxel_size_of(std::vector{leaves_}, uses, options));
+  const std::vector shapes{options};
+  EXPECT_EQ(voxel_size_of(std::vector{all_}, uses, shapes),
+            voxel_size_of(std::vector{leaves_}, uses, shapes));
 }
 
 TEST_P(Strays, AreNotInTheFrame) {

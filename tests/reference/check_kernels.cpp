@@ -98,7 +98,33 @@ struct Band {
   }
 };
 
-/// Eqs. (9), (10). The tolerances follow from each N_iso being known to kRounding.
+/// A number and how far another may be from it.
+struct Expected {
+  double value, error;
+};
+
+/// The density that a share of the leaves does not exceed, and how far it is from its neighbours in
+/// rank: rounding may pick one of these.
+Expected quantile(const std::vector<double>& densities, const std::vector<double>& share,
+                  double percent) {
+  std::vector<std::pair<double, double>> ranked;
+  double all = 0;
+  for (std::size_t i = 0; i < densities.size(); ++i) {
+    ranked.emplace_back(densities[i], share[i]);
+    all += share[i];
+  }
+  std::sort(ranked.begin(), ranked.end());
+  std::size_t at = 0;
+  for (double up_to = ranked[0].second; at + 1 < ranked.size() && up_to < percent / 100 * all;) {
+    up_to += ranked[++at].second;
+  }
+  const double below = ranked[at > 0 ? at - 1 : at].first;
+  const double above = ranked[std::min(at + 1, ranked.size() - 1)].first;
+  const double value = ranked[at].first;
+  return {value, kRounding * value + std::max(value - below, above - value)};
+}
+
+/// Eqs. (9), (10), or the shares of the leaves. The tolerances follow from each N_iso being known to kRounding.
 Band check_statistics(const Extraction& extraction, const std::vector<double>& densities,
                       Table& table) {
   const auto& stored = extraction.kernels.property("density");
@@ -118,25 +144,36 @@ Band check_statistics(const Extraction& extraction, const std::vector<double>& d
   const bool by_variance = extraction.word("spread") == "variance";
   double spread = by_variance ? variance : std::sqrt(variance);
   if (extraction.by_area()) spread = std::max(spread, 0.15 * mean);  // SPEC: 3
-  const double a1 = extraction.number("band_low"), a2 = extraction.number("band_high");
-  const auto band_error = [&](double a) {
-    return mean_error + std::abs(a) * (by_variance ? variance_error : spread_error);
+  const auto end = [&](const std::string& name) -> Expected {
+    const auto& percent = extraction.parameter(name + "_percent");
+    if (!percent.is_null()) return quantile(densities, share, percent);
+    const double a = extraction.number(name);
+    return {mean + a * spread,
+            mean_error + std::abs(a) * (by_variance ? variance_error : spread_error)};
   };
+  Expected p1 = end("band_low"), p2 = end("band_high");
+  if (extraction.by_area() && !extraction.parameter("band_low_percent").is_null() &&
+      !extraction.parameter("band_high_percent").is_null()) {  // SPEC: 3
+    const double missing = std::max(0.0, 0.3 * mean - (p2.value - p1.value));
+    p1.value -= missing / 2;
+    p2.value += missing / 2;
+    p1.error = p2.error = std::max(p1.error, p2.error);
+  }
   const auto& report = extraction.report.at("density");
   // Unlike leaf vertices, leaf points are rounded to the floats of the file, and weights too.
   table.require("N_iso, largest relative error", worst, 0,
                 extraction.by_area() ? 5 * kRounding : kRounding);
   table.compare_near("density mean", report.at("mean"), mean, mean_error);
   table.compare_near("density variance", report.at("variance"), variance, variance_error);
-  table.compare_near("p1", report.at("p1"), mean + a1 * spread, band_error(a1));
-  table.compare_near("p2", report.at("p2"), mean + a2 * spread, band_error(a2));
+  table.compare_near("p1", report.at("p1"), p1.value, p1.error);
+  table.compare_near("p2", report.at("p2"), p2.value, p2.error);
   const auto& percent = extraction.parameter("threshold_percent");
   if (!percent.is_null()) {
     const double threshold = percent.get<double>() / 100 * mean;
     table.compare_near("threshold by percent", extraction.number("threshold"), threshold,
                        kRounding * threshold);
   }
-  return {mean + a1 * spread, mean + a2 * spread};
+  return {p1.value, p2.value};
 }
 
 /// The radii of each kernel against its method. Rounding of N_iso makes Eq. (8)'s weight a range.

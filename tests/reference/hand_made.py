@@ -105,7 +105,7 @@ def make_report(method, kernels, radius_max, threshold, inside, on, dilated, **c
             "points": "vertices", "method": method, "threshold": threshold,
             "threshold_percent": None, "coverage": None,
             "radius_max": radius_max, "radius_unit": "model", "radius_max_model": radius_max,
-            "flatness": 0.5, "falloff": 2, "spread": "stddev", "density": "exact", "band_low": 0,
+            "flatness": 0.5, "falloff": 2, "spread": "stddev", "density": "exact", "band_low": 0, "band_low_percent": None,
             "band_high": 2, "min_component": 0, "adaptivity": 0, "snap": True,
             "resolution": round((longest + 2 * radius_max) / H), "voxel_size": H},
         "counts": {"leaf_points": len(kernels), "evaluated_voxels": 100000, "mesh_vertices": 0,

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "density/control.h"
+#include "leafhull/error.h"
 
 namespace leafhull {
 namespace {
@@ -28,7 +29,7 @@ TEST(Control, StatisticsOfEquations9And10) {
   const std::vector<LeafPoint> leaves(4, leaf(1, 1));
   const std::vector<float> density{1, 2, 3, 6};
   Options options;
-  const DensityStatistics s = density_statistics(leaves, density, kCrown, options);
+  const DensityStatistics s = density_statistics(leaves, density, kCrown, resolve(options));
   EXPECT_DOUBLE_EQ(s.mean, 3);
   EXPECT_DOUBLE_EQ(s.variance, 3.5);
   EXPECT_DOUBLE_EQ(s.p1, 3);
@@ -36,7 +37,7 @@ TEST(Control, StatisticsOfEquations9And10) {
 
   options.spread = Spread::variance;
   options.band_low = -1;
-  const DensityStatistics v = density_statistics(leaves, density, kCrown, options);
+  const DensityStatistics v = density_statistics(leaves, density, kCrown, resolve(options));
   EXPECT_DOUBLE_EQ(v.p1, 3 - 3.5);
   EXPECT_DOUBLE_EQ(v.p2, 3 + 2 * 3.5);
 }
@@ -122,19 +123,65 @@ TEST(Control, LeafPointsCountByTheirArea) {
   const std::vector<LeafPoint> leaves{leaf(1, 1, 3), leaf(1, 1, 1)};
   Options options;
   options.points = PointSource::area;
-  const DensityStatistics s = density_statistics(leaves, std::vector<float>{1, 5}, kCrown, options);
+  const DensityStatistics s = density_statistics(leaves, std::vector<float>{1, 5}, kCrown, resolve(options));
   EXPECT_DOUBLE_EQ(s.mean, 2);
   EXPECT_DOUBLE_EQ(s.variance, 3);
   // A ripple is no spread.
   const DensityStatistics even =
-      density_statistics(leaves, std::vector<float>{1.01f, 0.97f}, kCrown, options);
+      density_statistics(leaves, std::vector<float>{1.01f, 0.97f}, kCrown, resolve(options));
   EXPECT_NEAR(even.p2, 1.3 * even.mean, 1e-9);
+}
+
+TEST(Control, TheBandByShares) {
+  const std::vector<LeafPoint> leaves(10, leaf(1, 1));
+  const std::vector<float> density{7, 1, 9, 3, 5, 10, 2, 8, 4, 6};
+  const auto band_of = [&](double low, double high) {
+    Options options;
+    options.style = Style::paper_thin;
+    options.band_low_percent = low;
+    options.band_high_percent = high;
+    return density_statistics(leaves, density, kCrown, resolve(options));
+  };
+  EXPECT_EQ(band_of(30, 70).p1, 3);
+  EXPECT_EQ(band_of(30, 70).p2, 7);
+  EXPECT_EQ(band_of(0, 100).p1, 1);
+  EXPECT_EQ(band_of(0, 100).p2, 10);
+  EXPECT_EQ(band_of(31, 31).p1, 4);
+  EXPECT_EQ(band_of(31, 31).p2, 4);
+}
+
+TEST(Control, TheBandByShareOfAreaIsNoNarrowerThanARipple) {
+  const std::vector<LeafPoint> leaves{leaf(1, 1, 1), leaf(1, 1, 2), leaf(1, 1, 1)};
+  Options options;
+  options.band_low_percent = 30;
+  options.band_high_percent = 75;
+  const DensityStatistics s =
+      density_statistics(leaves, std::vector<float>{1, 2, 4}, kCrown, resolve(options));
+  EXPECT_DOUBLE_EQ(s.mean, 2.25);
+  EXPECT_DOUBLE_EQ(s.p1, 2 - 0.15 * s.mean) << "both shares end at one density, 2";
+  EXPECT_DOUBLE_EQ(s.p2, 2 + 0.15 * s.mean);
+}
+
+TEST(Control, ABandUpsideDownOnThisTree) {
+  const std::vector<LeafPoint> leaves(3, leaf(1, 1));
+  Options options;
+  options.style = Style::paper_thin;
+  options.band_low = 0;
+  options.band_high_percent = 10;
+  try {
+    (void)density_statistics(leaves, std::vector<float>{1, 2, 3}, kCrown, resolve(options));
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::usage);
+    EXPECT_NE(std::string(error.what()).find("--band-high 10%"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("--band-low 0"), std::string::npos) << error.what();
+  }
 }
 
 TEST(Control, StraysCountForNothing) {
   std::vector<LeafPoint> leaves(3, leaf(1, 1));
   leaves[1].position = {0, 5, 0};
-  const DensityStatistics s = density_statistics(leaves, std::vector<float>{1, 100, 3}, kCrown, {});
+  const DensityStatistics s = density_statistics(leaves, std::vector<float>{1, 100, 3}, kCrown, resolve({}));
   EXPECT_DOUBLE_EQ(s.mean, 2);
   EXPECT_DOUBLE_EQ(s.variance, 1);
 }

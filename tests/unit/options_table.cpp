@@ -25,7 +25,7 @@ TEST(OptionTable, HasEveryOptionOnce) {
       "flatness",  "falloff",       "spread",     "density",     "band-low",
       "band-high", "min-component", "preset",     "resolution",  "voxel-size",
       "dense",     "snap",          "mesher",     "adaptivity",  "hollows",
-      "points",    "point-spacing"};
+      "points",    "point-spacing", "band-low-percent", "band-high-percent"};
   std::set<std::string_view> found;
   for (const OptionRow& row : option_table()) {
     EXPECT_TRUE(found.insert(row.name).second) << row.name << " stands twice";
@@ -79,8 +79,9 @@ TEST(OptionTable, MembersAreTheNamedOnes) {
             &Options::threshold_percent);
   EXPECT_EQ(std::get<std::optional<double> Options::*>(row("voxel-size").member),
             &Options::voxel_size);
-  EXPECT_EQ(std::get<double Options::*>(row("band-low").member), &Options::band_low);
-  EXPECT_EQ(std::get<double Options::*>(row("band-high").member), &Options::band_high);
+  EXPECT_EQ(std::get<std::optional<double> Options::*>(row("band-low").member), &Options::band_low);
+  EXPECT_EQ(std::get<std::optional<double> Options::*>(row("band-high").member),
+            &Options::band_high);
   EXPECT_EQ(std::get<double Options::*>(row("leaf-scale").member), &Options::leaf_scale);
   EXPECT_EQ(std::get<bool Options::*>(row("dense").member), &Options::dense);
   EXPECT_EQ(std::get<bool Options::*>(row("snap").member), &Options::snap);

@@ -66,7 +66,17 @@ TEST(SweepValues, PercentagesAreThresholdPercent) {
   EXPECT_EQ(swept_option(row("threshold"), "30,45").row->name, "threshold");
   EXPECT_NE(refusal("30%,45").find("mixes"), std::string::npos);
   EXPECT_NE(refusal("30:60:10%").find("mixes"), std::string::npos);
-  EXPECT_NE(refusal("1%,2%", "coverage").find("numbers"), std::string::npos);
+  EXPECT_NE(refusal("1%,2%", "radius-max").find("numbers"), std::string::npos);
+}
+
+TEST(SweepValues, PercentagesOfTheBandAndOfFractions) {
+  const SweptOption band = swept_option(row("band-low"), "10%:30%:10%");
+  EXPECT_EQ(band.row->name, "band-low-percent");
+  EXPECT_EQ(band.values, (Texts{"10", "20", "30"}));
+  const SweptOption coverage = swept_option(row("coverage"), "85%,92.5%");
+  EXPECT_EQ(coverage.row->name, "coverage");
+  EXPECT_EQ(coverage.values, (Texts{"0.85", "0.925"}));
+  EXPECT_EQ(values("5%:25%:10%", "coverage"), (Texts{"0.05", "0.15", "0.25"}));
 }
 
 TEST(SweepValues, OneValueIsHandedOnUnread) {
