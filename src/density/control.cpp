@@ -155,6 +155,30 @@ Kernel controlled_kernel(const LeafPoint& leaf, float density, const DensityStat
                    resolved.falloff);
 }
 
+namespace {
+
+/// T that takes in filled crowns for a coverage, where most leaves are on them; none below 0.95.
+/// `densities` are sorted.
+std::optional<double> around_solids(std::span<const WeightedDensity> densities, double coverage) {
+  std::uint64_t all = 0, in_solids = 0, up_to = 0;
+  for (const WeightedDensity& d : densities) {
+    all += d.weight;
+    if (d.in_solid) in_solids += d.weight;
+  }
+  if (coverage < 0.95 || 2 * in_solids < all) return {};
+  const double share = coverage < 0.98   ? std::lerp(0.35, 0.3, (coverage - 0.95) / 0.03)
+                       : coverage < 0.99 ? std::lerp(0.3, 0.15, (coverage - 0.98) / 0.01)
+                                         : 0.15;
+  for (const WeightedDensity& d : densities) {
+    if (!d.in_solid) continue;
+    up_to += d.weight;
+    if (2 * up_to >= in_solids) return share * static_cast<double>(d.density);
+  }
+  return {};
+}
+
+}  // namespace
+
 std::optional<double> below_film(std::vector<WeightedDensity>& densities, double threshold) {
   constexpr double kFilm = 1.2, kMost = 0.5;
   std::ranges::sort(densities, {}, &WeightedDensity::density);
@@ -162,7 +186,7 @@ std::optional<double> below_film(std::vector<WeightedDensity>& densities, double
   for (const WeightedDensity& d : densities) {
     const auto n = static_cast<double>(d.density);
     if (n >= threshold) above += d.weight;
-    if (n >= threshold && n < kFilm * threshold) film += d.weight;
+    if (n >= threshold && n < kFilm * threshold && !d.in_solid) film += d.weight;
   }
   if (static_cast<double>(film) <= kMost * static_cast<double>(above)) return {};
   std::uint64_t below_middle = 0;
@@ -177,6 +201,10 @@ std::optional<double> below_film(std::vector<WeightedDensity>& densities, double
 double clear_of_sheets(std::vector<WeightedDensity>& densities, double threshold, double coverage) {
   constexpr double kNearlyAll = 0.98;
   if (coverage >= kNearlyAll) threshold = std::min(threshold, kBelowSheet);
+  std::ranges::sort(densities, {}, &WeightedDensity::density);
+  if (const auto around = around_solids(densities, coverage)) {
+    threshold = std::min(threshold, *around);
+  }
   return below_film(densities, threshold).value_or(threshold);
 }
 

@@ -53,17 +53,20 @@ double anisotropy(double n, const DensityStatistics& statistics);
 struct WeightedDensity {
   float density;
   std::uint64_t weight = 1;
+  bool in_solid = false;  ///< on the surface of a crown that is filled
 };
 
 /// N is 1 on a sheet of leaf that lies alone, and at a T next to that the surface would be a film
 /// with holes. So where most of the area above T is above it by less than a fifth, as on closed
-/// crowns: 0.6 of what that area has in the middle, which does not tear it. `densities` come back
-/// sorted.
+/// crowns: 0.6 of what that area has in the middle, which does not tear it. A crown that is filled
+/// is not torn. `densities` come back sorted.
 std::optional<double> below_film(std::vector<WeightedDensity>& densities, double threshold);
 
 /// T for a coverage of leaf area, `threshold` being its quantile, such that sheets of leaf are not
-/// torn: below a film, and where nearly all leaves are asked for, 0.98 or more, at most 0.6.
-/// `densities` come back sorted.
+/// torn: below a film, and where nearly all leaves are asked for, 0.98 or more, at most 0.6. The
+/// surface of a filled crown has about one density, so that its quantiles are about the same; where
+/// most leaves are on such, a coverage of 0.95 takes in all that has 0.35 of the density that half of
+/// them have, one of 0.98 what has 0.3, one of 0.99 what has 0.15. `densities` come back sorted.
 double clear_of_sheets(std::vector<WeightedDensity>& densities, double threshold, double coverage);
 
 /// T such that the fraction `coverage` of the densities is at least T: halfway between the two

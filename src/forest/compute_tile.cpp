@@ -84,11 +84,13 @@ class Place {
   struct Centres {
     std::vector<Vec3d> points;
     std::vector<std::uint64_t> weights;
+    std::vector<bool> in_solid;  ///< as in LeafPoints
   };
 
   /// The leaf points in the tile.
   Centres own_centres(std::span<const KernelRun> runs) const {
-    return own(local_centres(runs), weights_of(scene_, level_, runs));
+    const std::vector<Vec3d> centres = local_centres(runs);
+    return own(centres, weights_of(scene_, level_, runs), std::vector<bool>(centres.size()));
   }
 
   /// The places on leaves in the tile.
@@ -98,16 +100,18 @@ class Place {
     PlacedSamples samples =
         samples_in(scene_, level_, task_.trees, {box.low - rounding, box.high + rounding});
     for (Vec3d& p : samples.points) p = lattice_.local(p);
-    return own(samples.points, samples.weights);
+    return own(samples.points, samples.weights, samples.in_solid);
   }
 
  private:
-  Centres own(std::span<const Vec3d> points, std::span<const std::uint64_t> weights) const {
+  Centres own(std::span<const Vec3d> points, std::span<const std::uint64_t> weights,
+              const std::vector<bool>& in_solid) const {
     Centres centres;
     for (std::size_t i = 0; i < points.size(); ++i) {
       if (!own().meets({cell_of(points[i]), 1})) continue;
       centres.points.push_back(points[i]);
       centres.weights.push_back(weights[i]);
+      centres.in_solid.push_back(in_solid[i]);
     }
     return centres;
   }
@@ -120,10 +124,13 @@ class Place {
 };
 
 std::vector<WeightedDensity> weighted(std::span<const float> densities,
-                                      std::span<const std::uint64_t> weights) {
-  std::vector<WeightedDensity> pairs;
-  for (std::size_t i = 0; i < densities.size(); ++i) pairs.push_back({densities[i], weights[i]});
-  return pairs;
+                                      std::span<const std::uint64_t> weights,
+                                      const std::vector<bool>& in_solid) {
+  std::vector<WeightedDensity> all;
+  for (std::size_t i = 0; i < densities.size(); ++i) {
+    all.push_back({densities[i], weights[i], in_solid[i]});
+  }
+  return all;
 }
 
 }  // namespace
@@ -153,8 +160,8 @@ std::vector<WeightedDensity> isotropic_density_in(const Scene& scene, const Fore
                                                   const TileTask& task, Device& device) {
   const Place place(scene, level, task, device);
   const std::vector<KernelRun> runs = place.runs_near(place.box_of(place.own()));
-  const auto [points, weights] = place.own_centres(runs);
-  return weighted(place.isotropic_at(points, runs), weights);
+  const auto [points, weights, in_solid] = place.own_centres(runs);
+  return weighted(place.isotropic_at(points, runs), weights, in_solid);
 }
 
 std::vector<WeightedDensity> density_in(const Scene& scene, const ForestLevel& level,
@@ -163,7 +170,8 @@ std::vector<WeightedDensity> density_in(const Scene& scene, const ForestLevel& l
   const Place::Centres samples = place.own_samples();
   if (samples.points.empty()) return {};
   const std::vector<KernelRun> runs = place.runs_near(place.box_of(place.own()));
-  return weighted(place.density(runs).at(samples.points), samples.weights);
+  return weighted(place.density(runs).at(samples.points), samples.weights,
+                  samples.in_solid);
 }
 
 }  // namespace leafhull

@@ -97,11 +97,12 @@ PlacedSamples samples_in(const Scene& scene, const ForestLevel& level,
     if (apart(map(model.bounds), box, model.reach * map.stretch())) continue;
     const double area = model.area / static_cast<double>(model.samples.size());
     const std::uint64_t weight = weight_of(area, map.area(), level.sample_unit);
-    for (const Vec3d& sample : model.samples) {
-      const Vec3d p = map(sample);
+    for (std::size_t i = 0; i < model.samples.size(); ++i) {
+      const Vec3d p = map(model.samples[i]);
       if (!box.contains(p)) continue;
       found.points.push_back(p);
       found.weights.push_back(weight);
+      found.in_solid.push_back(!model.in_solid.empty() && model.in_solid[i]);
     }
   }
   return found;

@@ -36,6 +36,7 @@ std::vector<std::uint64_t> weights_of(const Scene& scene, const ForestLevel& lev
 struct PlacedSamples {
   std::vector<Vec3d> points;
   std::vector<std::uint64_t> weights;
+  std::vector<bool> in_solid;  ///< as in LeafPoints
 };
 
 /// Those of the trees' samples that lie in `box`.

@@ -94,6 +94,7 @@ ForestModel prepare_model(const LeafSet& all, int level, const Options& resolved
   LeafPoints points = stages.take_points();
   model.leaves = std::move(points.points);
   model.samples = std::move(points.samples);
+  model.in_solid = std::move(points.in_solid);
   model.area = points.area;
   model.radius_max = report.radius_max_model;
   model.groups = groups_of(model.kernels);
@@ -139,7 +140,10 @@ double threshold_of(const ForestLevel& level, std::span<const ModelUse> uses,
         const double share = model.area * uses[m].area / all_area;
         weight = whole(std::ldexp(share / static_cast<double>(model.density.size()), kShareBits));
       }
-      for (const float n : model.density) densities.push_back({n, weight});
+      for (std::size_t i = 0; i < model.density.size(); ++i) {
+        const bool in_solid = !model.in_solid.empty() && model.in_solid[i];
+        densities.push_back({model.density[i], weight, in_solid});
+      }
     }
     if (options.points == PointSource::vertices) {
       return threshold_for_coverage(densities, *options.coverage);

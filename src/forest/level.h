@@ -29,6 +29,7 @@ struct ForestModel {
   std::vector<float> isotropic_density;  ///< N_iso there, of the tree alone
   std::vector<float> density;            ///< N at the places on its leaves, of the tree alone
   std::vector<Vec3d> samples;            ///< those places
+  std::vector<bool> in_solid;            ///< of each, as in LeafPoints
   double area = 0;                       ///< of its leaf points; 0 where they are vertices
   double radius_max = 0;                 ///< R_max
   std::vector<KernelGroup> groups;

@@ -83,14 +83,18 @@ class Histogram {
 
   std::span<std::uint64_t> counts() { return counts_; }
 
-  /// The lower ends of the bins, and how much lies in each.
-  std::vector<WeightedDensity> densities() const {
+  /// The lower ends of the bins, and how much lies in each, of what is `in_solid` or not.
+  std::vector<WeightedDensity> densities(bool in_solid) const {
     std::vector<WeightedDensity> all;
     for (std::uint32_t bin = 0; bin < kBins; ++bin) {
       if (counts_[bin] == 0) continue;
-      all.push_back({std::bit_cast<float>(kFirst + (bin << kDropped)), counts_[bin]});
+      all.push_back({std::bit_cast<float>(kFirst + (bin << kDropped)), counts_[bin], in_solid});
     }
     return all;
+  }
+
+  void add(const Histogram& other) {
+    for (std::uint32_t bin = 0; bin < kBins; ++bin) counts_[bin] += other.counts_[bin];
   }
 
  private:
@@ -167,18 +171,23 @@ void control_over_scene(const Scene& scene, const TilePlan& plan, int edge,
     level.threshold = threshold_of(level, finest, moments.mean());
     return;
   }
-  Histogram histogram;
+  Histogram histogram, solids;
   for_each_tile(plan, ranks, advance, [&](std::size_t t) {
-    for (const WeightedDensity& n : density_in(scene, level, task(t), device)) histogram.add(n);
+    for (const WeightedDensity& n : density_in(scene, level, task(t), device)) {
+      (n.in_solid ? solids : histogram).add(n);
+    }
   });
   ranks.sum(histogram.counts());
+  ranks.sum(solids.counts());
+  std::vector<WeightedDensity> densities = histogram.densities(false);
+  for (const WeightedDensity& n : solids.densities(true)) densities.push_back(n);
+  histogram.add(solids);
   if (level.options.points == PointSource::vertices) {
     level.threshold = histogram.quantile(*level.options.coverage);
     return;
   }
   const double coverage = *level.options.coverage;
   const std::uint64_t unit = weight_of(level.sample_unit, 1, level.sample_unit);
-  std::vector<WeightedDensity> densities = histogram.densities();
   level.threshold =
       clear_of_sheets(densities, histogram.halfway_quantile(coverage, unit), coverage);
 }

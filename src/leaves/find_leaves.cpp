@@ -88,6 +88,14 @@ class LeafCollector {
   void take_component(const Source& source, std::span<const Face> component) {
     if (take_if_flat(source, component)) return;
     ++leaves_.split_components;
+    if (const std::vector<EigenTriangle> closed = closed_surface(mesh_); !closed.empty()) {
+      sheets_.begin_solid(closed, first_point(source));
+    }
+    take_pieces(source, component);
+    sheets_.end_solid();
+  }
+
+  void take_pieces(const Source& source, std::span<const Face> component) {
     const FaceGroups pieces = split_at_sharp_edges(mesh_);
     for (std::size_t i = 0; i < pieces.size(); ++i) {
       if (pieces[i].size() < component.size() && take_if_flat(source, pieces[i])) continue;
@@ -115,12 +123,15 @@ class LeafCollector {
       ++leaves_.dropped_leaves;
       return;
     }
-    const Eigen::Vector3d first = to_eigen(source.mesh.positions[mesh_.positions.front()]);
-    sheets_.take(mesh_, *ellipse, source.texture,
-                 source.placement.linear * first + source.placement.translation, options_.scale,
-                 piece);
+    sheets_.take(mesh_, *ellipse, source.texture, first_point(source), options_.scale, piece);
     ++leaves_.leaf_count;
     if (source.texture.draws() && !ellipse->from_texture) ++untextured_;
+  }
+
+  /// Of `mesh_`, in the world.
+  Eigen::Vector3d first_point(const Source& source) const {
+    const Eigen::Vector3d first = to_eigen(source.mesh.positions[mesh_.positions.front()]);
+    return source.placement.linear * first + source.placement.translation;
   }
 
   /// Whether every normal and texture coordinate that `mesh_` stores is.

@@ -136,7 +136,41 @@ void SheetCollector::take(const LeafMesh& leaf, const LeafEllipse& ellipse,
                              to_vec3d(axes.along), area, number, to_vec3f(normal),
                              to_vec3f(major.normalized()),
                              static_cast<float>(scale * ellipse.major.norm()),
-                             static_cast<float>(scale * ellipse.minor.norm()), piece});
+                             static_cast<float>(scale * ellipse.minor.norm()), piece, solid_});
+}
+
+void SheetCollector::begin_solid(std::span<const EigenTriangle> closed,
+                                 const Eigen::Vector3d& first) {
+  LeafSolid solid;
+  double sixfold = 0;
+  for (const auto& [a, b, c] : closed) {
+    solid.triangles.push_back({to_vec3d(first + a), to_vec3d(first + b), to_vec3d(first + c)});
+    solid.surface += (b - a).cross(c - a).norm() / 2;
+    sixfold += a.dot(b.cross(c));
+  }
+  solid.volume = std::abs(sixfold) / 6;
+  solid_ = static_cast<std::int32_t>(sheets_->solids.size());
+  sheets_->solids.push_back(std::move(solid));
+}
+
+/// Gives the solids their areas and an order that depends on the geometry alone, and forgets those
+/// that have no area.
+void SheetCollector::sort_solids() {
+  std::vector<LeafSolid>& solids = sheets_->solids;
+  // The first sheet of each tells its place: sheets are sorted.
+  std::vector<std::int32_t> place(solids.size(), -1);
+  std::vector<LeafSolid> sorted;
+  for (LeafSheet& sheet : sheets_->sheets) {
+    if (sheet.solid < 0) continue;
+    std::int32_t& at = place[static_cast<std::size_t>(sheet.solid)];
+    if (at < 0) {
+      at = static_cast<std::int32_t>(sorted.size());
+      sorted.push_back(std::move(solids[static_cast<std::size_t>(sheet.solid)]));
+    }
+    sheet.solid = at;
+    sorted[static_cast<std::size_t>(at)].area += sheet.area;
+  }
+  solids = std::move(sorted);
 }
 
 std::shared_ptr<const LeafSheets> SheetCollector::finish(const Box& crown) {
@@ -154,6 +188,7 @@ std::shared_ptr<const LeafSheets> SheetCollector::finish(const Box& crown) {
   for (const std::uint32_t i : order) sorted.push_back(sheets[i]);
   sheets = std::move(sorted);
   for (const LeafSheet& sheet : sheets) sheets_->area += sheet.area;
+  sort_solids();
   charts_.clear();
   return std::move(sheets_);
 }

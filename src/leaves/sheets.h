@@ -5,12 +5,14 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "leafhull/leaves.h"
 #include "leaves/alpha_mask.h"
 #include "leaves/ellipse.h"
 #include "leaves/leaf_mesh.h"
+#include "leaves/solids.h"
 
 namespace leafhull {
 
@@ -32,6 +34,7 @@ struct LeafSheet {
   Vec3f normal, major;
   float radius_major = 0, radius_minor = 0;  ///< R_u, R_v, model units
   bool piece = false;  ///< a triangle of a curved surface, whose ellipse is no leaf's
+  std::int32_t solid = -1;  ///< which it is of; -1: of none
 
   Vec3d at(Vec2d p) const { return origin + across * p.x + along * p.y; }
 };
@@ -40,6 +43,7 @@ struct LeafSheet {
 struct LeafSheets {
   std::vector<LeafChart> charts;
   std::vector<LeafSheet> sheets;
+  std::vector<LeafSolid> solids;  ///< with a volume and visible area
   std::size_t invisible = 0;  ///< leaves that have no visible area
   double area = 0;            ///< of all sheets
 };
@@ -52,6 +56,10 @@ class SheetCollector {
   void take(const LeafMesh& leaf, const LeafEllipse& ellipse, const TextureSource& texture,
             const Eigen::Vector3d& first, double scale, bool piece);
 
+  /// The leaves taken from now on are of this closed surface, until end_solid(). `first` as above.
+  void begin_solid(std::span<const EigenTriangle> closed, const Eigen::Vector3d& first);
+  void end_solid() { solid_ = -1; }
+
   /// All of them, sorted; `crown`: of the leaves but for strays, which are not to move others.
   std::shared_ptr<const LeafSheets> finish(const Box& crown);
 
@@ -60,6 +68,9 @@ class SheetCollector {
 
   std::uint32_t chart_of(Triangles triangles, const std::shared_ptr<AlphaMask>& mask);
 
+  void sort_solids();
+
+  std::int32_t solid_ = -1;
   std::shared_ptr<LeafSheets> sheets_ = std::make_shared<LeafSheets>();
   std::map<std::pair<const AlphaMask*, std::vector<double>>, std::uint32_t> charts_;
 };

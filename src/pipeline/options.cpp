@@ -52,9 +52,9 @@ constexpr StyleValues kPaperStyles[] = {
 };
 constexpr StyleValues kStyles[] = {
     {Method::controlled, PointSource::area, 3.5, {}, 0.98, kPaperBand, 0.8, 0.33, 0.001},
-    {Method::controlled, PointSource::area, 1.4, {}, 0.85, kPaperBand, 0.7, 0.33, 0.001},
-    {Method::controlled, PointSource::area, 5.0, {}, 0.99, kPaperBand, 1.0, 0.33, 0.001},
-    {Method::isotropic, PointSource::area, 2.5, {}, 0.95, kPaperBand, 1.0, 0.33, 0.001},
+    {Method::controlled, PointSource::area, 4.0, {}, 0.8, {30, 80, true}, 0.7, 0.33, 0.02},
+    {Method::controlled, PointSource::area, 7.5, {}, 0.99, {50, 100, true}, 1.0, 0.33, 0.001},
+    {Method::isotropic, PointSource::area, 4.0, {}, 0.96, {30, 80, true}, 1.0, 0.33, 0.005},
     kPaperStyles[0],
     kPaperStyles[1],
     kPaperStyles[2],

@@ -63,18 +63,20 @@ std::vector<Vec3d> positions_of(const std::vector<Point>& points) {
   return positions;
 }
 
-std::vector<WeightedDensity> weighted(std::span<const float> density) {
+std::vector<WeightedDensity> weighted(std::span<const float> density,
+                                      const std::vector<bool>& in_solid) {
   std::vector<WeightedDensity> all;
   all.reserve(density.size());
-  for (const float n : density) all.push_back({n});
+  for (std::size_t i = 0; i < density.size(); ++i) all.push_back({density[i], 1, in_solid[i]});
   return all;
 }
 
 /// T for a coverage.
-double threshold_for(const Options& options, std::span<const float> density) {
+double threshold_for(const Options& options, std::span<const float> density,
+                     const std::vector<bool>& in_solid) {
   const double threshold = threshold_for_coverage(density, *options.coverage);
   if (options.points != PointSource::area) return threshold;
-  std::vector<WeightedDensity> all = weighted(density);
+  std::vector<WeightedDensity> all = weighted(density, in_solid);
   return clear_of_sheets(all, threshold, *options.coverage);
 }
 
@@ -90,11 +92,12 @@ constexpr double kSliderError = 0.01;
 /// T that leaves the share `erosion` outside.
 /// @throws Error usage: no T does, or only one that tears a sheet.
 double threshold_for_erosion(const Options& options, double erosion,
-                             std::span<const float> density) {
+                             std::span<const float> density,
+                             const std::vector<bool>& in_solid) {
   const double threshold = threshold_for_coverage(density, 1 - erosion);
   char text[200];
   if (options.points == PointSource::area) {
-    std::vector<WeightedDensity> all = weighted(density);
+    std::vector<WeightedDensity> all = weighted(density, in_solid);
     if (const std::optional<double> whole = below_film(all, threshold)) {
       std::snprintf(text, sizeof text,
                     "an erosion of %.3g cannot be had: most of this tree is sheets of one density, "
@@ -116,12 +119,12 @@ double threshold_for_erosion(const Options& options, double erosion,
 }
 
 double threshold_of(const Options& options, const DensityStatistics& statistics,
-                    std::span<const float> density) {
+                    std::span<const float> density, const std::vector<bool>& in_solid) {
   const double threshold =
       options.threshold           ? *options.threshold
       : options.threshold_percent ? *options.threshold_percent / 100 * statistics.mean
-      : options.erosion           ? threshold_for_erosion(options, *options.erosion, density)
-                                  : threshold_for(options, density);
+      : options.erosion           ? threshold_for_erosion(options, *options.erosion, density, in_solid)
+                                  : threshold_for(options, density, in_solid);
   if (threshold < static_cast<double>(std::numeric_limits<float>::min())) {
     throw Error(ErrorCode::usage, "the threshold T is too small for a density",
                 "Raise --threshold to 1e-30 or more.");
@@ -285,7 +288,7 @@ void Stages::prepare_at(Report& report) {
     return known ? isotropic_density_.value
                  : density_at(points_.value.samples, report, kernels_.value);
   });
-  report.threshold = threshold_of(options, report.density, density_there_.value);
+  report.threshold = threshold_of(options, report.density, density_there_.value, points_.value.in_solid);
   describe(report);
 }
 

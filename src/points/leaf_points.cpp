@@ -8,6 +8,7 @@
 #include "leafhull/error.h"
 #include "leaves/order.h"
 #include "leaves/sheets.h"
+#include "points/fill_solids.h"
 #include "points/join.h"
 #include "points/place_parts.h"
 #include "points/samples.h"
@@ -58,10 +59,23 @@ LeafPoints area_points(const LeafSet& leaves, double spacing) {
                 "Look at the model's textures and alpha modes, or give --points vertices.");
   }
   LeafPoints result;
-  result.points = join_in_cells(place_parts(sheets, spacing), spacing);
+  const auto is_in_solid = [&](const LeafSheet& sheet) {
+    return sheet.solid >= 0 &&
+           is_filled(sheets.solids[static_cast<std::size_t>(sheet.solid)], spacing);
+  };
+  result.points = join_in_cells(place_parts(sheets, spacing, is_in_solid), spacing);
+  for (const LeafSolid& solid : sheets.solids) {
+    if (!is_filled(solid, spacing)) continue;
+    const std::vector<LeafPoint> inside = fill(solid, spacing);
+    result.points.insert(result.points.end(), inside.begin(), inside.end());
+  }
   sort_points(result.points, leaves.crown);
   for (const LeafPoint& point : result.points) result.area += point.area;
-  result.samples = samples_of(sheets, leaves.crown);
+  const Samples samples = samples_of(sheets, leaves.crown);
+  result.samples = samples.places;
+  for (const std::uint32_t sheet : samples.sheet) {
+    result.in_solid.push_back(is_in_solid(sheets.sheets[sheet]));
+  }
   return result;
 }
 

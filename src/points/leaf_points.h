@@ -13,6 +13,7 @@ struct LeafPoints {
   /// Places that stand for equal shares of the leaves: their vertices, or even samples of their
   /// visible area, those of strays left out. A coverage is a share of these.
   std::vector<Vec3d> samples;
+  std::vector<bool> in_solid;  ///< of each sample, whether it lies on a solid that is filled; or none
   double area = 0;  ///< of all points, model units squared; 0 where they are vertices
 };
 
@@ -28,7 +29,8 @@ LeafPoints vertex_points(const LeafSet& leaves);
 /// cells of a lattice of edge `spacing`, and so is everything in cells that hold several layers:
 /// so the number of points is bounded by the area over spacing^2 and by the volume of the crown. A
 /// leaf that is one part keeps its ellipse; other parts have their own second moments and no radius
-/// in their plane below kLeastRadius * spacing.
+/// in their plane below kLeastRadius * spacing. A closed surface is no sheet: it is filled with
+/// points, over which its area is spread evenly, unless it is thinner than kernels reach.
 /// @param spacing model units, > 0.
 /// @throws Error usage where it would make more than ten million parts; input where no leaf is
 /// visible.

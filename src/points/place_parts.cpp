@@ -106,10 +106,12 @@ LeafPoint placed(const FlatPart& part, const LeafSheet& sheet, double spacing) {
 
 }  // namespace
 
-std::vector<LeafPoint> place_parts(const LeafSheets& sheets, double spacing) {
+std::vector<LeafPoint> place_parts(const LeafSheets& sheets, double spacing,
+                                   const std::function<bool(const LeafSheet&)>& is_out) {
   double all = 0;
   std::map<Cut, std::vector<FlatPart>> cuts;
   for (const LeafSheet& sheet : sheets.sheets) {
+    if (is_out(sheet)) continue;
     const double count = parts_of(sheet, spacing);
     if (count > 1) all += count;
     if (!(all <= kMostParts)) continue;
@@ -132,6 +134,7 @@ std::vector<LeafPoint> place_parts(const LeafSheets& sheets, double spacing) {
   std::vector<LeafPoint> points;
   points.reserve(sheets.sheets.size() + static_cast<std::size_t>(all));
   for (const LeafSheet& sheet : sheets.sheets) {
+    if (is_out(sheet)) continue;
     const double count = parts_of(sheet, spacing);
     if (count == 1) {
       points.push_back(whole(sheet, sheets.charts[sheet.chart], spacing));

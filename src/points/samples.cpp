@@ -57,7 +57,7 @@ std::vector<Taken> leaves_with_samples(const LeafSheets& sheets,
 
 }  // namespace
 
-std::vector<Vec3d> samples_of(const LeafSheets& sheets, const Box& crown) {
+Samples samples_of(const LeafSheets& sheets, const Box& crown) {
   const std::vector<std::size_t> leaves = leaves_in(sheets, crown);
   double area = 0;
   for (const std::size_t i : leaves) area += sheets.sheets[i].area;
@@ -72,8 +72,9 @@ std::vector<Vec3d> samples_of(const LeafSheets& sheets, const Box& crown) {
   tbb::parallel_for(std::size_t{0}, places.size(), [&](std::size_t c) {
     if (wanted[c] > 0) places[c] = even_samples(sheets.charts[c], wanted[c]);
   });
-  std::vector<Vec3d> samples;
-  samples.reserve(kSamples);
+  Samples samples;
+  samples.places.reserve(kSamples);
+  samples.sheet.reserve(kSamples);
   for (const Taken& t : taken) {
     const LeafSheet& sheet = sheets.sheets[t.sheet];
     const std::vector<Vec2d>& on_chart = places[sheet.chart];
@@ -82,7 +83,8 @@ std::vector<Vec3d> samples_of(const LeafSheets& sheets, const Box& crown) {
       const double into = ((static_cast<double>(i) + 0.5) * step - t.before) / sheet.area;
       const auto place = static_cast<std::size_t>(std::clamp(into, 0.0, 1.0) *
                                                   static_cast<double>(on_chart.size()));
-      samples.push_back(sheet.at(on_chart[std::min(place, on_chart.size() - 1)]));
+      samples.places.push_back(sheet.at(on_chart[std::min(place, on_chart.size() - 1)]));
+      samples.sheet.push_back(static_cast<std::uint32_t>(t.sheet));
     }
   }
   return samples;

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "leaves/solids.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <map>
+#include <utility>
+
+namespace leafhull {
+namespace {
+
+/// Cones over openings, together, against the rest of the surface: a half sphere is a solid.
+constexpr double kMostOpen = 0.55;
+
+using Edge = std::pair<std::uint32_t, std::uint32_t>;  // the lesser first
+
+struct Entry {
+  std::array<std::uint32_t, 3> corners;  // ascending
+  std::size_t face;
+  auto operator<=>(const Entry&) const = default;
+};
+
+/// The faces with the same three corners count once where `once_each`, else where their number is
+/// odd.
+std::vector<std::size_t> without_doubles(const std::vector<Entry>& entries, bool once_each) {
+  std::vector<std::size_t> faces;
+  for (std::size_t begin = 0; begin < entries.size();) {
+    std::size_t end = begin;
+    while (end < entries.size() && entries[end].corners == entries[begin].corners) ++end;
+    if (once_each || (end - begin) % 2 == 1) faces.push_back(entries[begin].face);
+    begin = end;
+  }
+  std::ranges::sort(faces);
+  return faces;
+}
+
+std::vector<std::size_t> faces_once(const LeafMesh& component) {
+  std::vector<Entry> entries;
+  for (std::size_t face = 0; face < component.triangles.size(); ++face) {
+    auto corners = component.triangles[face];
+    std::ranges::sort(corners);
+    const bool is_line = corners[0] == corners[1] || corners[1] == corners[2];
+    if (!is_line) entries.push_back({corners, face});
+  }
+  std::ranges::sort(entries);
+  const std::vector<std::size_t> odd = without_doubles(entries, false);
+  return odd.empty() ? without_doubles(entries, true) : odd;
+}
+
+/// The edges with an odd number of faces, in the direction of one of them.
+std::vector<Edge> rim(const LeafMesh& component, const std::vector<std::size_t>& faces) {
+  std::map<Edge, std::pair<std::size_t, Edge>> edges;
+  for (const std::size_t face : faces) {
+    const auto [a, b, c] = component.triangles[face];
+    for (const Edge edge : {Edge(a, b), Edge(b, c), Edge(c, a)}) {
+      auto& [count, directed] = edges[std::minmax(edge.first, edge.second)];
+      ++count;
+      directed = edge;
+    }
+  }
+  std::vector<Edge> odd;
+  for (const auto& [ends, found] : edges) {
+    if (found.first % 2 == 1) odd.push_back(found.second);
+  }
+  return odd;
+}
+
+/// The openings: edges of a rim that hang together.
+std::vector<std::vector<Edge>> openings(const std::vector<Edge>& rim) {
+  std::map<std::uint32_t, std::uint32_t> parent;
+  const auto find = [&](std::uint32_t v) {
+    while (parent.try_emplace(v, v).first->second != v) v = parent[v];
+    return v;
+  };
+  for (const auto& [a, b] : rim) {
+    const std::uint32_t low = std::min(find(a), find(b)), high = std::max(find(a), find(b));
+    parent[high] = low;
+  }
+  std::map<std::uint32_t, std::vector<Edge>> loops;
+  for (const Edge& edge : rim) loops[find(edge.first)].push_back(edge);
+  std::vector<std::vector<Edge>> all;
+  for (auto& [first, loop] : loops) all.push_back(std::move(loop));
+  return all;
+}
+
+double area_of(const EigenTriangle& t) { return (t[1] - t[0]).cross(t[2] - t[0]).norm() / 2; }
+
+}  // namespace
+
+std::vector<EigenTriangle> closed_surface(const LeafMesh& component) {
+  const std::vector<std::size_t> faces = faces_once(component);
+  std::vector<EigenTriangle> surface;
+  double own = 0, cones = 0;
+  for (const std::size_t face : faces) {
+    const auto [a, b, c] = component.triangles[face];
+    surface.push_back({component.points[a], component.points[b], component.points[c]});
+    own += area_of(surface.back());
+  }
+  for (const std::vector<Edge>& opening : openings(rim(component, faces))) {
+    Eigen::Vector3d apex = Eigen::Vector3d::Zero();
+    for (const auto& [a, b] : opening) apex += component.points[a] + component.points[b];
+    apex /= 2 * static_cast<double>(opening.size());
+    for (const auto& [a, b] : opening) {
+      surface.push_back({component.points[b], component.points[a], apex});
+      cones += area_of(surface.back());
+    }
+  }
+  if (cones > kMostOpen * own) surface.clear();
+  return surface;
+}
+
+}  // namespace leafhull

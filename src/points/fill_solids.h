@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "leafhull/leaves.h"
+#include "leaves/solids.h"
+
+namespace leafhull {
+
+/// Whether a closed surface is so thick that kernels on it would leave its middle empty, and is
+/// therefore filled. `spacing`: that of leaf points, model units.
+bool is_filled(const LeafSolid& solid, double spacing);
+
+/// Points in the cells of the world's lattice that a solid meets, each at the middle of what it
+/// holds there and with that share of the solid's leaf area: as if the leaves were spread evenly
+/// over its volume. They lie a fifth further apart than parts of sheets, since around each there
+/// are more.
+std::vector<LeafPoint> fill(const LeafSolid& solid, double spacing);
+
+}  // namespace leafhull
