@@ -9,13 +9,14 @@
 #include <map>
 #include <utility>
 
-#include "points/leaf_points.h"
-
 namespace leafhull {
 namespace {
 
-/// A cell's edge over the spacing. A lattice of these under kernels of R_max ripples by a percent.
-constexpr double kCellOverSpacing = 1.2;
+/// A cell's edge over the spacing.
+constexpr double kCellOverSpacing = 1.1;
+/// Radii of the points over that edge: above R_max however flat leaves are, to which control then
+/// caps them. What is filled in has no shape of its own.
+constexpr double kRound = 8;
 /// Samples along a cell's edge.
 constexpr int kSamplesPerCell = 4;
 /// A surface is filled from this thickness over the spacing on, about half of R_max.
@@ -113,24 +114,18 @@ std::vector<LeafPoint> fill(const LeafSolid& solid, double spacing) {
   const double step = edge / kSamplesPerCell;
   const Cells cells = cells_of(solid, step);
   std::uint64_t all = 0;
-  Vec3d middle;
-  for (const auto& [at, cell] : cells) {
-    all += cell.count;
-    middle = middle + cell.sum;
-  }
-  middle = middle * (step / static_cast<double>(all));
-  const auto radius = static_cast<float>(kLeastRadius * edge);
+  for (const auto& [at, cell] : cells) all += cell.count;
+  const auto radius = static_cast<float>(kRound * edge);
   std::vector<LeafPoint> points;
   points.reserve(cells.size());
   for (const auto& [at, cell] : cells) {
     const auto count = static_cast<double>(cell.count);
-    const Vec3d position = cell.sum * (step / count);
-    // Flattened kernels lie along the surface, about.
-    const Vec3d out = position - middle;
-    const Vec3d normal = dot(out, out) > 0 ? normalized(out) : Vec3d(0, 1, 0);
-    const Vec3d other = std::abs(normal.y) < 0.9 ? Vec3d(0, 1, 0) : Vec3d(1, 0, 0);
-    points.push_back({position, Vec3f(normal), Vec3f(normalized(cross(other, normal))), radius,
-                      radius, solid.area * count / static_cast<double>(all)});
+    points.push_back({cell.sum * (step / count),
+                      {0, 1, 0},
+                      {1, 0, 0},
+                      radius,
+                      radius,
+                      solid.area * count / static_cast<double>(all)});
   }
   return points;
 }

@@ -14,8 +14,7 @@ bool is_filled(const LeafSolid& solid, double spacing);
 
 /// Points in the cells of the world's lattice that a solid meets, each at the middle of what it
 /// holds there and with that share of the solid's leaf area: as if the leaves were spread evenly
-/// over its volume. They lie a fifth further apart than parts of sheets, since around each there
-/// are more.
+/// over its volume. Their kernels are spheres of R_max under every method.
 std::vector<LeafPoint> fill(const LeafSolid& solid, double spacing);
 
 }  // namespace leafhull
