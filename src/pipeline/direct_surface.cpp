@@ -40,8 +40,12 @@ DirectSurface::DirectSurface(const LeafSet& leaves, const Options& options, Devi
   d.report.options = resolve(options);
   d.report.options.adaptivity = 0;  // it is of meshes, and widens what is sampled
   stages.prepare(d.report);
-  stages.sample(d.report, {d.report.threshold});
-  d.field = std::make_shared<const Field>(stages.take_field(d.report));
+  if (d.report.options.erosion) {
+    d.field = std::make_shared<const Field>(stages.surface(d.report, Mesher::bricks).field);
+  } else {
+    stages.sample(d.report, {d.report.threshold});
+    d.field = std::make_shared<const Field>(stages.take_field(d.report));
+  }
   const Field& field = *d.field;
   if (!reaches(field)) stages.refuse_empty(field, d.report);
 

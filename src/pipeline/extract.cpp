@@ -16,10 +16,9 @@ Shape extract(const LeafSet& leaves, const Options& asked, Device& device,
   report.options = resolve(asked);
 
   stages.prepare(report);
-  stages.sample(report, {report.threshold});
-  shape.field = std::make_shared<const Field>(stages.take_field(report));
+  auto [found, polygons] = stages.surface(report, report.options.mesher);
+  shape.field = std::make_shared<const Field>(std::move(found));
   const Field& field = *shape.field;
-  Polygons polygons = stages.polygonise(field, report.options.mesher, report);
   if (polygons.points.empty()) stages.refuse_empty(field, report);
 
   watch.start("snap");

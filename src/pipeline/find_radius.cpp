@@ -4,52 +4,75 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <vector>
 
 namespace leafhull {
 namespace {
 
 constexpr double kClose = 0.004, kCloseEnough = 0.01;
-constexpr int kMostCalls = 12;
-/// How much the dilation grows as R_max grows e-fold: on trees of all kinds 0.2 to 0.5, more where
-/// leaves are few.
-constexpr double kSlope = 0.3, kLeastSlope = 0.1, kMostSlope = 1;
+constexpr int kMostCalls = 16;
+/// How much the dilation grows as R_max grows e-fold, on trees of all kinds: 0.2 to 0.5.
+constexpr double kSlope = 0.3, kLeastSlope = 0.1;
+/// Of the logarithm of the radius: the longest step into the unknown, as small radii are dear; and
+/// what the lattice cannot tell apart, at a slope and at a peak.
+constexpr double kLongestStep = 0.8, kShortest = 0.002, kShortestAtPeak = 0.1;
 
 struct Try {
-  double x = 0;  ///< the logarithm of the radius
-  double dilation = 0;
+  double x = 0;       ///< the logarithm of the radius
+  double excess = 0;  ///< of the dilation over what is wanted
 };
+
+/// Where to look next, or nowhere. `tries` ascend by x; none is close.
+std::optional<double> next(const std::vector<Try>& tries, double least, double most) {
+  for (std::size_t i = 1; i < tries.size(); ++i) {
+    const Try &low = tries[i - 1], &high = tries[i];
+    if (low.excess * high.excess > 0) continue;
+    if (high.x - low.x < kShortest) return {};
+    const double share = low.excess / (low.excess - high.excess);
+    // Away from both ends, so that the interval always shrinks.
+    return std::lerp(low.x, high.x, std::clamp(share, 0.05, 0.95));
+  }
+  // All on one side: on from the nearest.
+  const auto nearest =
+      std::ranges::min_element(tries, {}, [](const Try& t) { return std::abs(t.excess); });
+  const bool is_first = nearest == tries.begin(), is_last = nearest + 1 == tries.end();
+  const double wanted = nearest->excess < 0 ? 1 : -1;  // how the dilation shall change
+  if (is_first && is_last) {
+    const double step = -nearest->excess / kSlope;
+    return std::clamp(nearest->x + std::clamp(step, -kLongestStep, kLongestStep), least, most);
+  }
+  if (is_first || is_last) {
+    if (is_first ? nearest->x <= least : nearest->x >= most) return {};
+    const Try& other = is_first ? *(nearest + 1) : *(nearest - 1);
+    const double slope = std::abs((nearest->excess - other.excess) / (nearest->x - other.x));
+    const double step =
+        std::min(kLongestStep, wanted * -nearest->excess / std::max(slope, kLeastSlope));
+    return std::clamp(nearest->x + (is_first ? -step : step), least, most);
+  }
+  // A peak or a valley: into the wider gap beside it.
+  const double before = nearest->x - (nearest - 1)->x, after = (nearest + 1)->x - nearest->x;
+  if (std::max(before, after) < kShortestAtPeak) return {};
+  return before > after ? nearest->x - before / 2 : nearest->x + after / 2;
+}
 
 }  // namespace
 
 RadiusFound find_radius(double wanted, double start,
                         const std::function<double(double radius)>& dilation_at) {
   const double least = std::log(kSmallestRadiusMax), most = std::log(kLargestRadiusMax);
-  std::optional<Try> below, above, last;
+  std::vector<Try> tries;
   RadiusFound best;
-  double x = std::clamp(std::log(start), least, most), slope = kSlope;
-  for (int call = 0; call < kMostCalls; ++call) {
-    const double radius = std::exp(x);
-    const Try here{x, dilation_at(radius)};
-    const double missing = wanted - here.dilation;
-    if (call == 0 || std::abs(missing) < std::abs(wanted - best.dilation)) {
-      best = {radius, here.dilation, std::abs(missing) <= kCloseEnough};
+  std::optional<double> x = std::clamp(std::log(start), least, most);
+  for (int call = 0; call < kMostCalls && x; ++call) {
+    const double radius = std::exp(*x), dilation = dilation_at(radius);
+    const double error = std::abs(dilation - wanted);
+    if (call == 0 || error < std::abs(best.dilation - wanted)) {
+      best = {radius, dilation, error <= kCloseEnough};
     }
-    if (std::abs(missing) <= kClose) break;
-    if (missing > 0 ? x >= most : x <= least) break;  // the end of what can be had
-    (missing > 0 ? below : above) = here;
-    if (below && above) {
-      if (above->x - below->x < 1e-3) break;
-      const double share = (wanted - below->dilation) / (above->dilation - below->dilation);
-      // Away from the ends, so that the interval always shrinks.
-      x = below->x + (above->x - below->x) * std::clamp(share, 0.05, 0.95);
-    } else {
-      if (last) {
-        slope = std::clamp((here.dilation - last->dilation) / (here.x - last->x), kLeastSlope,
-                           kMostSlope);
-      }
-      x = std::clamp(x + missing / slope, least, most);
-    }
-    last = here;
+    if (error <= kClose) break;
+    tries.push_back({*x, dilation - wanted});
+    std::ranges::sort(tries, {}, &Try::x);
+    x = next(tries, least, most);
   }
   return best;
 }

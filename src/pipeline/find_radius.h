@@ -7,7 +7,7 @@ namespace leafhull {
 
 /// The radii between which R_max is looked for, crown units: below the first a kernel is smaller
 /// than a voxel of the paper's, above the second the crown is one ball.
-inline constexpr double kSmallestRadiusMax = 0.5, kLargestRadiusMax = 16;
+inline constexpr double kSmallestRadiusMax = 0.75, kLargestRadiusMax = 16;
 
 /// A radius and the dilation that it gives.
 struct RadiusFound {
@@ -17,8 +17,9 @@ struct RadiusFound {
 };
 
 /// R_max such that the dilation is `wanted`, within 0.004, or within 0.01 where the lattice allows
-/// no closer. `dilation_at` rises with the radius but for the lattice's noise; each call computes a
-/// shape. The search begins at `start` and takes three or four calls, and no more than twelve.
+/// no closer. `dilation_at` rises with the radius, but for the lattice's noise and for compact
+/// trees, where it falls again beyond some radius; each call computes a shape. The search begins at
+/// `start` and takes three or four calls, and no more than sixteen.
 RadiusFound find_radius(double wanted, double start,
                         const std::function<double(double radius)>& dilation_at);
 

@@ -21,6 +21,11 @@ struct Entry {
   Report report;
 };
 
+/// Where R_max or T is still to be found, no other is known to share a field.
+bool is_alone(const Entry& entry) {
+  return entry.report.options.erosion || entry.report.options.dilation;
+}
+
 /// The series in groups that can share a field, so ordered that the next shares the most with the
 /// last.
 std::vector<std::vector<Entry>> groups_of(const LeafSet& leaves, std::span<const Options> series) {
@@ -35,10 +40,8 @@ std::vector<std::vector<Entry>> groups_of(const LeafSet& leaves, std::span<const
                    [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<std::vector<Entry>> groups;
   for (std::size_t i = 0; i < entries.size(); ++i) {
-    // Where R_max is still to be found, no other is known to share it.
-    const bool alone = entries[i].second.report.options.dilation.has_value();
-    const bool is_new = i == 0 || alone || groups.back().front().report.options.dilation ||
-                        entries[i].first != entries[i - 1].first;
+    const bool is_new = i == 0 || is_alone(entries[i].second) ||
+                        is_alone(groups.back().front()) || entries[i].first != entries[i - 1].first;
     if (is_new) groups.emplace_back();
     groups.back().push_back(std::move(entries[i].second));
   }
@@ -79,6 +82,7 @@ class Series {
  private:
   /// Entries ascending by T; where the field of all does not fit in memory, halves share one.
   bool extract_at(std::span<Entry> group) {
+    if (is_alone(group.front())) return extract_alone(group.front());
     const Report& first = group.front().report;
     const std::vector<double> thresholds = thresholds_of(group);
     if (thresholds.size() > 1 && !stages_.memory(first, thresholds).fits()) {
@@ -91,10 +95,22 @@ class Series {
                        [&](Entry& entry) { return extract(entry, stages_.field(entry.report)); });
   }
 
+  bool extract_alone(Entry& entry) {
+    Stages::Surface surface;
+    const std::string failure =
+        failure_of([&] { surface = stages_.surface(entry.report, Mesher::bricks); });
+    if (!failure.empty()) return fail({&entry, 1}, failure);
+    return finish(entry, surface.field, surface.polygons);
+  }
+
   bool extract(Entry& entry, const Field& field) {
+    return finish(entry, field, stages_.polygonise(field, Mesher::bricks, entry.report));
+  }
+
+  bool finish(Entry& entry, const Field& field, const Polygons& polygons) {
     Report& report = entry.report;
     SeriesEntry result;
-    result.mesh = lattice_mesh(stages_.polygonise(field, Mesher::bricks, report), field.lattice());
+    result.mesh = lattice_mesh(polygons, field.lattice());
     report.counts.mesh_vertices = result.mesh.positions.size();
     report.counts.mesh_triangles = result.mesh.triangles.size();
     stages_.measure(field, report);

@@ -89,11 +89,11 @@ double share_below(std::span<const float> density, double threshold) {
 /// Both sliders keep what was asked for within this.
 constexpr double kSliderError = 0.01;
 
-/// T that leaves the share `erosion` outside.
+/// T that leaves the share that is asked for outside, `unseen` of it being outside anyway.
 /// @throws Error usage: no T does, or only one that tears a sheet.
-double threshold_for_erosion(const Options& options, double erosion,
-                             std::span<const float> density,
+double threshold_for_erosion(const Options& options, double unseen, std::span<const float> density,
                              const std::vector<bool>& in_solid) {
+  const double erosion = *options.erosion - unseen;
   const double threshold = threshold_for_coverage(density, 1 - erosion);
   char text[200];
   if (options.points == PointSource::area) {
@@ -119,11 +119,12 @@ double threshold_for_erosion(const Options& options, double erosion,
 }
 
 double threshold_of(const Options& options, const DensityStatistics& statistics,
-                    std::span<const float> density, const std::vector<bool>& in_solid) {
+                    std::span<const float> density, const std::vector<bool>& in_solid,
+                    double unseen) {
   const double threshold =
       options.threshold           ? *options.threshold
       : options.threshold_percent ? *options.threshold_percent / 100 * statistics.mean
-      : options.erosion           ? threshold_for_erosion(options, *options.erosion, density, in_solid)
+      : options.erosion           ? threshold_for_erosion(options, unseen, density, in_solid)
                                   : threshold_for(options, density, in_solid);
   if (threshold < static_cast<double>(std::numeric_limits<float>::min())) {
     throw Error(ErrorCode::usage, "the threshold T is too small for a density",
@@ -193,6 +194,15 @@ void warn_of_pieces(std::uint64_t pieces, Report& report) {
                             "--min-component to drop the small ones");
 }
 
+[[noreturn]] void refuse_erosion(double found, double asked) {
+  char text[200];
+  std::snprintf(text, sizeof text,
+                "an erosion of %.3g cannot be had: pieces too small to be kept leave %.3g outside",
+                asked, found);
+  throw Error(ErrorCode::usage, text,
+              "Give that, a larger --dilation or --radius-max, or a smaller --min-component.");
+}
+
 [[noreturn]] void refuse_dilation(const RadiusFound& found, const Options& options) {
   char text[240];
   const bool least = found.dilation > *options.dilation;
@@ -223,18 +233,73 @@ std::vector<float> Stages::density_at(std::span<const Vec3d> places, const Repor
 
 void Stages::prepare(Report& report) {
   Options& options = report.options;
-  const bool is_solved = !options.dilation || options.radius_max.has_value();
-  if (is_solved) return prepare_at(report);
-  const double start = radius_max_in_model_units(leaves_, options) /
-                       (leaves_.crown.longest_side() / kCrownUnits);
-  const RadiusFound found = find_radius(*options.dilation, start, [&](double radius) {
+  unseen_ = 0;
+  const bool finds_radius = options.dilation && !options.radius_max;
+  if (!finds_radius && !options.erosion) return prepare_at(report);
+  if (!finds_radius) {
+    (void)prepare_eroded(report);
+    return;
+  }
+  const double crown_unit = leaves_.crown.longest_side() / kCrownUnits;
+  const double start = radius_max_in_model_units(leaves_, options) / crown_unit;
+  const auto dilation_at = [&](double radius) {
     options.radius_max = radius;
-    prepare_at(report);
-    return dilation(report);
-  });
-  options.radius_max = found.radius;
-  prepare_at(report);
+    return prepare_eroded(report).dilation;
+  };
+  const RadiusFound found = find_radius(*options.dilation, start, dilation_at);
   if (!found.reached) refuse_dilation(found, options);
+  if (options.radius_max != found.radius) (void)dilation_at(found.radius);
+}
+
+Stages::Shares Stages::prepare_eroded(Report& report) {
+  constexpr int kMostRounds = 4;
+  for (int round = 0;; ++round) {
+    prepare_at(report);
+    const Shares found = shares(report);
+    if (!report.options.erosion || round == kMostRounds ||
+        std::abs(found.erosion - *report.options.erosion) <= kSliderError / 3) {
+      return found;
+    }
+    take_erosion(found.erosion, report.options);
+  }
+}
+
+/// T leaves out what is asked for but for what is left out anyway.
+void Stages::take_erosion(double erosion, const Options& options) {
+  constexpr double kLeast = 1e-3;  // of the leaves, below T
+  unseen_ = std::min(unseen_ + erosion - *options.erosion, *options.erosion - kLeast);
+}
+
+Stages::Surface Stages::surface(Report& prepared, Mesher mesher) {
+  constexpr int kMostRounds = 4;
+  for (int round = 1;; ++round) {
+    sample(prepared, {prepared.threshold});
+    Surface surface{take_field(prepared), {}};
+    surface.polygons = polygonise(surface.field, mesher, prepared);
+    if (is_eroded(surface.field, round == kMostRounds, prepared)) return surface;
+  }
+}
+
+/// Whether a surface, polygonise() having told its pieces, has the erosion that is asked for. If
+/// not, sets another T.
+bool Stages::is_eroded(const Field& field, bool is_last, Report& report) {
+  if (!report.options.erosion) return true;
+  const double asked = *report.options.erosion;
+  const double found = erosion(field, field.lattice(), dropped_cells_);
+  if (std::abs(found - asked) <= kSliderError / 2) return true;
+  const double before = unseen_;
+  take_erosion(found, report.options);
+  if (!is_last && unseen_ != before) {
+    prepare_at(report);
+    return false;
+  }
+  if (std::abs(found - asked) > kSliderError) refuse_erosion(found, asked);
+  return true;
+}
+
+double Stages::erosion(const Field& field, const Lattice& lattice,
+                       std::span<const Coord> dropped) const {
+  return share_outside(field, local(points_.value.samples, lattice), density_there_.value, dropped);
 }
 
 void Stages::prepare_at(Report& report) {
@@ -288,7 +353,8 @@ void Stages::prepare_at(Report& report) {
     return known ? isotropic_density_.value
                  : density_at(points_.value.samples, report, kernels_.value);
   });
-  report.threshold = threshold_of(options, report.density, density_there_.value, points_.value.in_solid);
+  report.threshold = threshold_of(options, report.density, density_there_.value,
+                                  points_.value.in_solid, unseen_);
   describe(report);
 }
 
@@ -364,19 +430,27 @@ Metrics Stages::metrics_of(const Field& field, const Lattice& lattice, const Rep
       area ? local(positions_of(leaves_.vertices), lattice) : std::vector<Vec3d>());
 }
 
-double Stages::dilation(const Report& prepared) {
+Stages::Shares Stages::shares(const Report& prepared) {
   const Options& options = prepared.options;
   watch_.start("dilation");
-  dilation_.update({kernels_key(prepared), prepared.threshold, *options.hollows}, [&] {
+  const double smallest = *options.min_component;
+  shares_.update({kernels_key(prepared), prepared.threshold, *options.hollows, smallest}, [&] {
     const Lattice lattice = Lattice::near(leaves_.crown.low, dilation_voxel(leaves_, prepared));
     DensityFunction density(device_, kernels_.value, hash_.value, lattice, options.falloff);
     auto sampled = density.sample_band({prepared.threshold}, 1, false, Lists::forget, [](double) {});
     const bool fill = options.hollows == Hollows::fill;
-    return dilated_share(metrics_of(
-        fill ? fill_hollows(std::move(sampled.field)) : std::move(sampled.field), lattice,
-        prepared));
+    const Field field =
+        fill ? fill_hollows(std::move(sampled.field)) : std::move(sampled.field);
+    Shares found;
+    found.dilation = dilated_share(metrics_of(field, lattice, prepared));
+    if (options.erosion) {
+      Polygons polygons = mesh_bricks(field);
+      const ComponentCount pieces = drop_small_components(polygons, smallest);
+      found.erosion = erosion(field, lattice, pieces.dropped_cells);
+    }
+    return found;
   });
-  return dilation_.value;
+  return shares_.value;
 }
 
 void Stages::measure(const Field& field, Report& report) {
@@ -386,9 +460,8 @@ void Stages::measure(const Field& field, Report& report) {
   report.metrics = metrics_of(field, lattice, report);
   report.metrics.off_site_exact = off_site;
   const bool is_known = report.voxel_size == dilation_voxel(leaves_, report);
-  report.metrics.dilation = is_known ? dilated_share(report.metrics) : dilation(report);
-  report.metrics.erosion = share_outside(field, local(points_.value.samples, lattice),
-                                         density_there_.value, dropped_cells_);
+  report.metrics.dilation = is_known ? dilated_share(report.metrics) : shares(report).dilation;
+  report.metrics.erosion = erosion(field, lattice, dropped_cells_);
   report.counts.evaluated_voxels = field.sample_count();
   report.counts.evaluated_pairs = sampled_.value.pairs;
 }

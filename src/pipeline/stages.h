@@ -92,6 +92,15 @@ class Stages {
   /// adaptivity; both give the same vertices and quads, in orders of their own.
   Polygons polygonise(const Field& field, Mesher mesher, Report& report);
 
+  struct Surface {
+    Field field;
+    Polygons polygons;
+  };
+  /// sample(), take_field() and polygonise() for the report's T, and for another where its options
+  /// ask for an erosion and this lattice shows one that is too far from it.
+  /// @throws Error usage: as sample(); and where no T has that erosion.
+  Surface surface(Report& prepared, Mesher mesher);
+
   /// The paper's metrics and the counts of a field, polygonise() having told its pieces.
   void measure(const Field& field, Report& report);
 
@@ -113,11 +122,21 @@ class Stages {
     std::shared_ptr<const BrickList> lists;
   };
 
+  /// What the shape is like on the lattice of a dilation.
+  struct Shares {
+    double dilation = 0;
+    double erosion = 0;  ///< where one is asked for
+  };
+
   void prepare_at(Report& report);
+  /// prepare_at() until the erosion is as asked for.
+  Shares prepare_eroded(Report& report);
+  void take_erosion(double erosion, const Options& options);
   /// Of a field of the report's tree.
   Metrics metrics_of(const Field& field, const Lattice& lattice, const Report& report) const;
-  /// What Metrics says.
-  double dilation(const Report& prepared);
+  Shares shares(const Report& prepared);
+  bool is_eroded(const Field& field, bool is_last, Report& report);
+  double erosion(const Field& field, const Lattice& lattice, std::span<const Coord> dropped) const;
 
   std::vector<float> density_at(std::span<const Vec3d> places, const Report& report,
                                 std::span<const Kernel> kernels) const;
@@ -136,7 +155,10 @@ class Stages {
   Kept<KernelsKey, std::vector<float>> density_there_;  ///< N at the places on the leaves
   std::optional<DensityFunction> density_;
   Kept<std::tuple<FieldKey, std::vector<double>>, Sampled> sampled_;
-  Kept<std::tuple<KernelsKey, double, Hollows>, double> dilation_;  ///< by T
+  Kept<std::tuple<KernelsKey, double, Hollows, double>, Shares> shares_;  ///< by T, min_component
+  /// Of the leaves at T and above, the share that is not in the shape: in pieces that are dropped,
+  /// or that the lattice does not see.
+  double unseen_ = 0;
   std::vector<Coord> dropped_cells_;  ///< of the last polygonise()
 };
 
