@@ -66,10 +66,36 @@ struct ReadingStudy {
   std::vector<Verdict> verdicts;  ///< the same claims in the same order for every reading
 };
 
+/// Where p1 and p2 lie: `low` and `high` deviations s above the mean m of N_iso, or such that so
+/// many percent of the leaf vertices have a lower N_iso. Source: Eqs. (9), (10), which have 0 and 2
+/// s.
+struct Band {
+  double low = 0, high = 2;
+  bool percent = false;
+};
+
+/// CTRLED with its band elsewhere.
+struct BandRow {
+  Band band;
+  StudyRow row;
+};
+
+/// What CTRLED comes to as its band moves, between an L&D and an UNCTRLED that lose as many of the
+/// leaf vertices as in the paper's Table 1: T is fitted to the first, then the leaf scale to the
+/// second. k = 1, R_max and lambda_R as in Table 1.
+struct BandStudy {
+  double evenness = 0;                   ///< s / m of N_iso: 0 where all leaves are as dense
+  double threshold = 0, leaf_scale = 0;  ///< as fitted
+  std::string failure;                   ///< why one of them cannot be, and there are no rows
+  StudyRow isotropic, uncontrolled;      ///< the ends
+  std::vector<BandRow> by_share, by_deviation;  ///< from the densest leaves to the sparsest
+};
+
 struct TreeStudy {
   std::string name;  ///< the file's, without folder and extension; no two of a study are the same
   std::uint64_t leaves = 0, leaf_vertices = 0;
   std::vector<ReadingStudy> readings;  ///< the project's own reading first
+  BandStudy band;
   /// In the project's own reading: the methods (Table 1), and what T, R_max and lambda_R do
   /// (Figures 12, 14, 16).
   std::vector<LabelledPicture> methods, figure12, figure14, figure16;
@@ -98,10 +124,12 @@ const ReadingStudy& paper_results();
 inline constexpr std::uint64_t kPaperLeafVertices = 52648;
 
 /// What `study` says of the paper's claims, from its tables and figures alone.
-std::vector<Verdict> verdicts(const ReadingStudy& study);
+/// @param band where given, claim 2b tells for which bands it holds, which decides nothing.
+std::vector<Verdict> verdicts(const ReadingStudy& study, const BandStudy* band = nullptr);
 
 /// The paper's evaluation of one tree under every reading: T 2, R_max 1.5 crown units and
-/// lambda_R 0.7 where they do not vary, 64 voxels but for Table 2. Takes tens of seconds.
+/// lambda_R 0.7 where they do not vary or are fitted, 64 voxels but for Table 2. Takes tens of
+/// seconds.
 /// @throws Error as extract does, but for an empty surface, which is a result.
 TreeStudy study_tree(const LeafSet& leaves, const std::string& name, Device& device,
                      const Progress& progress = {});

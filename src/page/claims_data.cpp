@@ -25,8 +25,6 @@ std::string_view words(Outcome outcome) {
   return "";
 }
 
-Json mark(Outcome outcome) { return {{"outcome", name(outcome)}, {"word", words(outcome)}}; }
-
 std::string tally(const ReadingStudy& reading) {
   const auto holds = std::ranges::count(reading.verdicts, Outcome::holds, &Verdict::outcome);
   return std::to_string(holds) + " of " + std::to_string(reading.verdicts.size()) + " hold";
@@ -54,6 +52,10 @@ Json cell(const TreeStudy& tree, std::size_t claim) {
 }
 
 }  // namespace
+
+nlohmann::json mark(Outcome outcome) {
+  return {{"outcome", name(outcome)}, {"word", words(outcome)}};
+}
 
 nlohmann::json claims_data(const Study& study) {
   Json claims = Json::array();

@@ -7,6 +7,9 @@
 
 namespace leafhull {
 
+/// An outcome, and how it is said.
+nlohmann::json mark(Outcome outcome);
+
 /// The summary: each claim with its outcome on every tree in the first reading, and in how many
 /// readings it holds there.
 nlohmann::json claims_data(const Study& study);

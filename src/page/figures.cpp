@@ -3,8 +3,10 @@
 
 #include <cmath>
 #include <span>
+#include <utility>
 
 #include "chart/chart.h"
+#include "study/band.h"
 
 namespace leafhull {
 namespace {
@@ -34,6 +36,35 @@ Chart chart(const ParameterFigures& figures, std::span<const ReadingStudy> readi
                            [](const StudyRow& row) { return row.off_site(); })}};
 }
 
+/// Rows by the two ratios that compare from tree to tree.
+ChartLine line(std::string name, std::span<const StudyRow> rows, const StudyRow& isotropic,
+               std::uint64_t leaf_vertices) {
+  ChartLine line{std::move(name), {}, {}};
+  for (const StudyRow& row : rows) {
+    line.x.push_back(100 * share_lost(row, leaf_vertices));
+    line.y.push_back(share_dilated(row, isotropic));
+  }
+  return line;
+}
+
+/// CTRLED on its way from L&D to UNCTRLED, beside the paper's.
+Chart chart(const BandStudy& band, std::uint64_t leaf_vertices) {
+  std::vector<StudyRow> way{band.isotropic};
+  for (const BandRow& row : band.by_share) way.push_back(row.row);
+  way.push_back(band.uncontrolled);
+  const std::span usual(&band.by_deviation.front().row, 1);
+  const auto& paper = paper_results().table1;
+  const std::span paper_controlled(&paper[static_cast<std::size_t>(Method::controlled)], 1);
+  return {.title = "",
+          .x_label = "off-site vertices (% of the leaf vertices)",
+          .panels = {{.y_label = "dilated voxels, L&D = 1",
+                      .lines = {line("CTRLED", way, band.isotropic, leaf_vertices),
+                                line("band " + name(band.by_deviation.front().band), usual,
+                                     band.isotropic, leaf_vertices),
+                                line("the paper’s CTRLED", paper_controlled, paper.front(),
+                                     kPaperLeafVertices)}}}};
+}
+
 }  // namespace
 
 const std::array<ParameterFigures, 3> kParameterFigures{
@@ -60,6 +91,7 @@ std::vector<TreePlots> draw_plots(const Study& study) {
       of_tree.first[i] = svg(chart(kParameterFigures[i], readings.first(1)));
       of_tree.all[i] = svg(chart(kParameterFigures[i], readings));
     }
+    if (tree.band.failure.empty()) of_tree.band = svg(chart(tree.band, tree.leaf_vertices));
   }
   return plots;
 }

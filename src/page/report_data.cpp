@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <string>
 #include <string_view>
 
@@ -10,8 +11,10 @@
 #include "page/figures.h"
 #include "page/pictures_data.h"
 #include "page/typeset.h"
+#include "study/band.h"
 #include "study/numbers.h"
 #include "study/plan.h"
+#include "study/verdicts.h"
 
 namespace leafhull {
 namespace {
@@ -156,6 +159,71 @@ Json parameters(const TreeStudy& tree, const TreePlots* plots) {
   return list;
 }
 
+// Where the band lies
+
+/// A shape by the two ratios that compare from tree to tree.
+Json ratios_cells(const StudyRow& row, const StudyRow& isotropic, std::uint64_t leaf_vertices) {
+  const double dilated = share_dilated(row, isotropic);
+  return {fixed(100 * share_lost(row, leaf_vertices), 1) + "%",
+          std::isfinite(dilated) ? fixed(dilated, 2) : kNone};
+}
+
+/// One row between the ends of `band`, or one of these.
+Json band_row(const std::string& label, const StudyRow& row, const BandStudy& band,
+              std::uint64_t leaf_vertices) {
+  const bool is_end = row.method != Method::controlled;
+  return {{"label", label},
+          {"cells", ratios_cells(row, band.isotropic, leaf_vertices)},
+          {"mark", is_end ? Json(false) : mark(intermediate(band, row))}};
+}
+
+Json band_row(const StudyRow& row, const BandStudy& band, std::uint64_t leaf_vertices) {
+  return band_row(std::string(paper_name(row.method)), row, band, leaf_vertices);
+}
+
+Json band_groups(const BandStudy& band, std::uint64_t leaf_vertices) {
+  Json shares = Json::array({band_row(band.isotropic, band, leaf_vertices)});
+  Json deviations = Json::array();
+  for (const BandRow& row : band.by_share) {
+    shares.push_back(band_row(name(row.band), row.row, band, leaf_vertices));
+  }
+  shares.push_back(band_row(band.uncontrolled, band, leaf_vertices));
+  for (const BandRow& row : band.by_deviation) {
+    deviations.push_back(band_row(name(row.band), row.row, band, leaf_vertices));
+  }
+  const auto& [isotropic, uncontrolled, controlled] = paper_results().table1;
+  BandStudy paper;
+  paper.isotropic = isotropic;
+  paper.uncontrolled = uncontrolled;
+  const Json theirs = {band_row(isotropic, paper, kPaperLeafVertices),
+                       band_row(controlled, paper, kPaperLeafVertices),
+                       band_row(uncontrolled, paper, kPaperLeafVertices)};
+  return {{{"group", "CTRLED, its band by shares of the leaf vertices"}, {"rows", shares}},
+          {{"group", "CTRLED, its band by deviations from the mean"}, {"rows", deviations}},
+          {{"group", "The paper"}, {"rows", theirs}}};
+}
+
+Json band_data(const TreeStudy& tree, const TreePlots* plots) {
+  const BandStudy& band = tree.band;
+  Json data = {{"evenness", fixed(band.evenness, 2)}, {"failure", band.failure}, {"fit", false}};
+  if (!band.failure.empty()) return data;
+  const auto lost = [&](const StudyRow& row) {
+    return fixed(100 * share_lost(row, tree.leaf_vertices), 2) + "%";
+  };
+  data["fit"] = {{"threshold", shortest(band.threshold)},
+                 {"leaf_scale", shortest(band.leaf_scale)},
+                 {"isotropic_lost", lost(band.isotropic)},
+                 {"uncontrolled_lost", lost(band.uncontrolled)},
+                 {"groups", band_groups(band, tree.leaf_vertices)},
+                 {"plot", false}};
+  if (plots != nullptr) {
+    data["fit"]["plot"] = plot_data(
+        plots->band, "The dilated voxels of " + tree.name +
+                         " over its off-site vertices as the band moves; the numbers stand below.");
+  }
+  return data;
+}
+
 Json tree_data(const TreeStudy& tree, std::size_t index, const TreePlots* plots) {
   const ReadingStudy& own = tree.readings.front();
   const Json shapes = shapes_data(tree);
@@ -171,6 +239,7 @@ Json tree_data(const TreeStudy& tree, std::size_t index, const TreePlots* plots)
           {"turns", turns},
           {"table1", table1(tree, own)},
           {"parameters", parameters(tree, plots)},
+          {"band", band_data(tree, plots)},
           {"runs", runs > 0 ? std::to_string(runs) : ""},
           {"table2", table2(own)},
           {"readings", readings_data(tree)}};
@@ -202,6 +271,7 @@ nlohmann::json report_data(const Study& study, std::span<const TreePlots> plots)
            {paper_name(Method::isotropic), paper_name(Method::uncontrolled),
             paper_name(Method::controlled)}},
           {"paper_leaf_vertices", grouped(kPaperLeafVertices)},
+          {"band_falloff", std::to_string(kBandReading.falloff)},
           {"claims", claims_data(study)},
           {"trees", std::move(trees)}};
 }

@@ -3,6 +3,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "study/band.h"
+#include "study/verdicts.h"
+
 namespace leafhull {
 namespace {
 
@@ -55,11 +58,37 @@ Json to_json_value(const ReadingStudy& reading) {
           {"verdicts", list(reading.verdicts)}};
 }
 
+/// Rows of bands, with p1 and p2 as deviations or in percent, and claim 2b.
+Json list(const BandStudy& band, const std::vector<BandRow>& rows) {
+  Json list = Json::array();
+  for (const BandRow& row : rows) {
+    Json json = {{"band_low", row.band.low}, {"band_high", row.band.high}};
+    json.update(to_json_value(row.row));
+    json["claim_2b"] = name(intermediate(band, row.row));
+    list.push_back(std::move(json));
+  }
+  return list;
+}
+
+Json to_json_value(const BandStudy& band) {
+  Json json = {{"falloff", kBandReading.falloff}, {"evenness", band.evenness}};
+  const bool is_fitted = band.failure.empty();
+  json["failure"] = is_fitted ? Json() : Json(band.failure);
+  if (!is_fitted) return json;
+  json["threshold"] = band.threshold;
+  json["leaf_scale"] = band.leaf_scale;
+  json["ends"] = list(std::array{band.isotropic, band.uncontrolled});
+  json["by_share"] = list(band, band.by_share);
+  json["by_deviation"] = list(band, band.by_deviation);
+  return json;
+}
+
 Json to_json_value(const TreeStudy& tree) {
   Json json = {{"name", tree.name}, {"leaves", tree.leaves}, {"leaf_vertices", tree.leaf_vertices}};
   json["bounds"] =
       tree.bounds.empty() ? Json() : list(std::array{tree.bounds.low, tree.bounds.high});
   json["seconds"] = tree.seconds;
+  json["band"] = to_json_value(tree.band);
   json["readings"] = list(tree.readings);
   return json;
 }

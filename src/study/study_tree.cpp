@@ -6,8 +6,9 @@
 #include <utility>
 
 #include "leafhull/error.h"
-#include "leafhull/series.h"
 #include "leafhull/study.h"
+#include "study/band.h"
+#include "study/measure.h"
 #include "study/numbers.h"
 #include "study/plan.h"
 #include "study/timing.h"
@@ -19,6 +20,7 @@ constexpr int kPictureSize = 480;
 
 // What the parts of a study take, about, in entries of the series: for the bar alone.
 constexpr int kPictureWork = 12;
+constexpr int kBandWork = 24;
 int timing_work(int resolution) { return 2 * kRuns * (3 + resolution / 16); }
 
 /// Tells how much of the work is done.
@@ -40,19 +42,6 @@ class Steps {
   int work_, done_ = 0;
   std::string stage_;
 };
-
-void measure(const Plan& plan, const LeafSet& leaves, Device& device, Steps& steps) {
-  steps.start("tables");
-  extract_series(leaves, plan.options, device, [&](std::size_t i, SeriesEntry&& entry) {
-    if (!entry.failure.empty()) throw Error(ErrorCode::usage, entry.failure);
-    for (StudyRow* row : plan.rows[i]) {
-      row->empty = entry.empty();
-      row->metrics = entry.report.metrics;
-    }
-    steps.advance(1);
-    return true;
-  });
-}
 
 void time(ReadingStudy& study, const LeafSet& leaves, Device& device, Steps& steps) {
   steps.start("times");
@@ -139,16 +128,20 @@ TreeStudy study_tree(const LeafSet& leaves, const std::string& name, Device& dev
   for (const Reading& reading : readings()) tree.readings.push_back(planned(reading));
 
   const Plan all = plan(tree.readings);
-  int work = static_cast<int>(all.options.size()) + kPictures * kPictureWork;
+  int work = static_cast<int>(all.options.size()) + kBandWork + kPictures * kPictureWork;
   for (const int resolution : kTable2Resolutions) {
     work += static_cast<int>(tree.readings.size()) * timing_work(resolution);
   }
   Steps steps(progress, work);
-  measure(all, leaves, device, steps);
+  steps.start("tables");
+  measure(all, leaves, device, [&](const Report&) { steps.advance(1); });
+  steps.start("band");
+  tree.band = study_band(leaves, device);
+  steps.advance(kBandWork);
   draw(tree, leaves, device, steps);
   for (ReadingStudy& study : tree.readings) {
     time(study, leaves, device, steps);
-    study.verdicts = verdicts(study);
+    study.verdicts = verdicts(study, &study == &tree.readings.front() ? &tree.band : nullptr);
   }
   tree.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
   return tree;

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The paper's claims, each judged on the tables and figures of one study. Source: sections 4, 5.
+#include "study/verdicts.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,7 +10,7 @@
 #include <optional>
 #include <span>
 
-#include "leafhull/study.h"
+#include "study/band.h"
 #include "study/numbers.h"
 
 namespace leafhull {
@@ -122,6 +124,33 @@ Finding between(const ReadingStudy& study, double margin) {
 Finding between(const ReadingStudy& study) { return between(study, 0); }
 
 Finding clear_of_both(const ReadingStudy& study) { return between(study, kLittle); }
+
+/// The bands that pass the same test: "70–90% to 10–30%" where neighbours do.
+std::string passing(const BandStudy& band, const std::vector<BandRow>& rows) {
+  std::string names;
+  const auto passes = [&](std::size_t i) {
+    return i < rows.size() && intermediate(band, rows[i].row) == Outcome::holds;
+  };
+  for (std::size_t first = 0, last = 0; first < rows.size(); first = last + 1) {
+    last = first;
+    if (!passes(first)) continue;
+    while (passes(last + 1)) ++last;
+    names += (names.empty() ? "" : ", ") + name(rows[first].band);
+    if (last > first) names += " to " + name(rows[last].band);
+  }
+  return names;
+}
+
+/// For which bands claim 2b holds.
+std::string where_clear(const BandStudy& band) {
+  if (!band.failure.empty()) return "no other bands could be tried";
+  const std::string shares = passing(band, band.by_share),
+                    deviations = passing(band, band.by_deviation);
+  const std::string both = !shares.empty() && !deviations.empty() ? " and " : "";
+  const std::string names = shares + both + deviations;
+  return "by “Where the band lies” it holds for " +
+         (names.empty() ? "no band" : "the bands " + names);
+}
 
 // Figures 11, 13, 15
 
@@ -268,7 +297,8 @@ constexpr Claim kClaims[] = {
      between},
     {"2b", "CTRLED is clear of both, an intermediate shape.",
      "Table 1: on the same way it lies above 10% and below 90%. The paper speaks of intermediate "
-     "shapes; the 10% is ours, as in 5b.",
+     "shapes; the 10% is ours, as in 5b. The bands of section “Where the band lies” that pass the "
+     "same test are named beside it and do not decide.",
      clear_of_both},
     {"3a", "Raising T gives fewer dilated voxels.",
      "Figure 11: they never rise from one T to the next, and the last are fewer than the first.",
@@ -305,10 +335,17 @@ std::string_view name(Outcome outcome) {
   return kNames[static_cast<std::size_t>(outcome)];
 }
 
-std::vector<Verdict> verdicts(const ReadingStudy& study) {
+Outcome intermediate(const BandStudy& band, const StudyRow& controlled) {
+  ReadingStudy study;
+  study.table1 = {band.isotropic, band.uncontrolled, controlled};
+  return clear_of_both(study).outcome;
+}
+
+std::vector<Verdict> verdicts(const ReadingStudy& study, const BandStudy* band) {
   std::vector<Verdict> verdicts;
   for (const Claim& claim : kClaims) {
     Finding here = claim.judge(study), paper = claim.judge(paper_results());
+    if (band != nullptr && claim.judge == clear_of_both) here.figures += "; " + where_clear(*band);
     const bool printed = paper.outcome != Outcome::open;
     verdicts.push_back({claim.number, claim.claim, claim.test, here.outcome,
                         std::move(here.figures), printed ? std::move(paper.figures) : ""});

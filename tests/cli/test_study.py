@@ -43,10 +43,21 @@ class Study(CommandTest):
             ["leafhull", "study", "tree.glb", "tree.glb", "-o", "report"],
         )
         self.assertNotIn(str(self.folder), json.dumps(study))
+        for tree in study["trees"]:
+            self.check_band(tree)
         blocks = result.stdout.strip().split("\n\n")
         self.assertEqual(len(blocks), 2)
         for tree, block in zip(study["trees"], blocks):
             self.check_block(tree, block.splitlines())
+
+    def check_band(self, tree):
+        band = tree["band"]
+        self.assertIsNone(band["failure"])
+        shares = [row["off_site_sampled"] / tree["leaf_vertices"] for row in band["ends"]]
+        for share, paper in zip(shares, (172, 24766)):
+            self.assertAlmostEqual(share, paper / 52648, delta=0.001)
+        (verdict,) = (v for v in tree["readings"][0]["verdicts"] if v["number"] == "2b")
+        self.assertIn("Where the band lies", verdict["figures"])
 
     def check_block(self, tree, lines):
         self.assertEqual(lines[0], f"{tree['name']}: {tree['leaf_vertices']:,} leaf vertices")

@@ -70,6 +70,33 @@ TEST(Page, ShowsTheTablesBesideThePapers) {
                       text);
 }
 
+TEST(Page, TellsWhereTheBandLies) {
+  const std::string text = text_of(page_of(sample_study()));
+  EXPECT_PRED_FORMAT2(
+      IsSubstring, "the mean of Niso, is 0.53. With T&nbsp;=&nbsp;4.47 L&amp;D loses 0.30%", text);
+  EXPECT_PRED_FORMAT2(IsSubstring, "leaves of 2.5 times their size UNCTRLED loses 47.00%", text);
+  EXPECT_PRED_FORMAT2(IsSubstring,
+                      "L&amp;D 0.3% 1.00 80–100% 0.4% 0.97 does not hold 0–20% 25.0% 0.50 holds "
+                      "UNCTRLED 47.0% 0.25",
+                      text);
+  EXPECT_PRED_FORMAT2(IsSubstring, "0 to 2 s 0.5% 0.95 does not hold", text);
+  EXPECT_PRED_FORMAT2(IsSubstring, "L&amp;D 0.3% 1.00 CTRLED 18.2% 0.77 holds UNCTRLED 47.0% 0.20",
+                      text);
+}
+
+TEST(Page, TellsWhyTheBandCouldNotBeMoved) {
+  Study study = sample_study();
+  for (TreeStudy& tree : study.trees) {
+    tree.band = {};
+    tree.band.evenness = 0.1;
+    tree.band.failure = "L&D loses nothing";
+  }
+  const std::string text = text_of(page_of(study));
+  EXPECT_PRED_FORMAT2(IsSubstring, "is 0.10. The band could not be moved", text);
+  EXPECT_PRED_FORMAT2(IsSubstring, "could not be fitted: L&amp;D loses nothing.", text);
+  EXPECT_FALSE(holds(text, "Band by"));
+}
+
 TEST(Page, TellsEveryOutcomeInWords) {
   const std::string text = text_of(page_of(sample_study()));
   EXPECT_PRED_FORMAT2(IsSubstring,
@@ -144,9 +171,10 @@ TEST(Page, SaysThatPlotsNeedGnuplot) {
   EXPECT_FALSE(holds(page, "image/svg+xml"));
   EXPECT_PRED_FORMAT2(IsSubstring, "No curve: gnuplot was not found", text_of(page));
   EXPECT_PRED_FORMAT2(IsSubstring, "2.25 2,400 300", text_of(page));
+  EXPECT_PRED_FORMAT2(IsSubstring, "80–100% 0.4% 0.97", text_of(page));
 }
 
-TEST(Page, HoldsAPlotOfEveryFigureAndOfAllReadings) {
+TEST(Page, HoldsAPlotOfEveryFigureAndOfAllReadingsAndOfTheBand) {
   if (!can_draw_charts()) GTEST_SKIP() << "gnuplot is missing";
   const TemporaryFolder folder;
   write_study(sample_study(), folder.path());
@@ -154,7 +182,7 @@ TEST(Page, HoldsAPlotOfEveryFigureAndOfAllReadings) {
   const std::string page = read_file(folder / "report.html");
   const std::regex plot("<img src=\"data:image/svg\\+xml;base64,");
   const std::sregex_iterator first(page.begin(), page.end(), plot), end;
-  EXPECT_EQ(std::distance(first, end), 2 * 3 * 2);
+  EXPECT_EQ(std::distance(first, end), 2 * (3 * 2 + 1));
 }
 
 TEST(WriteStudy, MakesTheFolder) {
@@ -188,6 +216,17 @@ TEST(StudyJson, HoldsTheNumbers) {
   EXPECT_EQ(tree["leaf_vertices"], 2000);
   EXPECT_EQ(tree["bounds"], json({{-2, -2, -2}, {2, 2, 2}}));
   const json& reading = tree["readings"][1];
+  const json& band = tree["band"];
+  EXPECT_EQ(band["falloff"], 1);
+  EXPECT_EQ(band["evenness"], 0.527);
+  EXPECT_EQ(band["leaf_scale"], 2.5);
+  EXPECT_EQ(band["failure"], nullptr);
+  EXPECT_EQ(band["ends"][1]["method"], "uncontrolled");
+  EXPECT_EQ(band["by_share"][0]["band_low"], 80);
+  EXPECT_EQ(band["by_share"][1]["off_site_sampled"], 500);
+  EXPECT_EQ(band["by_share"][1]["claim_2b"], "holds");
+  EXPECT_EQ(band["by_deviation"][0]["band_high"], 2);
+  EXPECT_EQ(band["by_deviation"][0]["claim_2b"], "fails");
   EXPECT_EQ(reading["falloff"], 1);
   EXPECT_EQ(reading["spread"], "variance");
   EXPECT_EQ(reading["density"], "grid");

@@ -187,6 +187,19 @@ test('texts, tables and pictures stand without scripts', async () => {
   }
 });
 
+test('every tree tells where its band lies, the paper beside it', async () => {
+  const page = await open(browser);
+  assert.equal(await page.getByRole('heading', { name: 'Where the band lies' }).count(), TREES.length);
+  const tables = page.getByRole('region', { name: 'Where the band lies' });
+  assert.equal(await tables.count(), TREES.length);
+  for (const table of await tables.all()) {
+    for (const text of ['80–100%', '0–20%', '0 to 2 s', '18.2%']) {
+      assert.ok(await table.getByText(text, { exact: true }).isVisible(), text);
+    }
+  }
+  assert.equal(await page.getByAltText('as the band moves').count(), TREES.length);
+});
+
 test('without WebGL the still pictures stay, and the page says why', async () => {
   const page = await open(browser, {
     before: () => {

@@ -46,6 +46,19 @@ LabelledPicture picture(const std::string& label) {
   return {{2, 1, {255, 255, 255, 60, 120, 60}}, {label}};
 }
 
+BandStudy band_study() {
+  BandStudy band;
+  band.evenness = 0.527;
+  band.threshold = 4.4695;
+  band.leaf_scale = 2.5;
+  band.isotropic = row(Method::isotropic, 4.4695, 4000, 6);
+  band.uncontrolled = row(Method::uncontrolled, 4.4695, 1000, 940);
+  band.by_share = {{{80, 100, true}, row(Method::controlled, 4.4695, 3900, 8)},
+                   {{0, 20, true}, row(Method::controlled, 4.4695, 2000, 500)}};
+  band.by_deviation = {{{0, 2}, row(Method::controlled, 4.4695, 3800, 10)}};
+  return band;
+}
+
 TreeStudy tree_study(const std::string& name) {
   TreeStudy tree;
   tree.name = name;
@@ -53,6 +66,7 @@ TreeStudy tree_study(const std::string& name) {
   tree.leaf_vertices = 2000;
   tree.readings = {reading_study({2, Spread::stddev, DensitySource::exact}, Outcome::fails),
                    reading_study({1, Spread::variance, DensitySource::grid}, Outcome::holds)};
+  tree.band = band_study();
   tree.methods = {picture("L&D"), picture("UNCTRLED"), picture("CTRLED")};
   tree.figure12 = {picture("T = 1.5"), picture("T = 2.25")};
   tree.figure14 = {picture("R_max = 1.5")};

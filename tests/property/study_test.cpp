@@ -5,8 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <random>
 
+#include "study/band.h"
 #include "study/plan.h"
 
 namespace leafhull {
@@ -78,7 +80,13 @@ TEST(StudyTree, IsWhatSingleExtractionsAre) {
       EXPECT_GT(time.control, 0);
     }
     EXPECT_EQ(study.verdicts.size(), verdicts(study).size());
+    const bool own = &study == &tree.readings.front();
+    for (const Verdict& verdict : study.verdicts) {
+      const bool tells = verdict.figures.find("“Where the band lies”") != std::string::npos;
+      EXPECT_EQ(tells, own && verdict.number == "2b") << verdict.figures;
+    }
   }
+  EXPECT_EQ(tree.band.failure, "");
   const std::size_t pictures =
       tree.methods.size() + tree.figure12.size() + tree.figure14.size() + tree.figure16.size();
   EXPECT_EQ(pictures, 12U);
@@ -88,6 +96,68 @@ TEST(StudyTree, IsWhatSingleExtractionsAre) {
     const Report report = extracted(leaves, tree.readings[0].table1[i], tree.readings[0].reading);
     EXPECT_EQ(tree.meshes[i].positions.size(), report.counts.mesh_vertices);
   }
+}
+
+/// The leaves as `--leaf-scale` would have read them.
+LeafSet scaled(LeafSet leaves, double scale) {
+  for (LeafVertex& vertex : leaves.vertices) {
+    vertex.radius_major *= static_cast<float>(scale);
+    vertex.radius_minor *= static_cast<float>(scale);
+  }
+  return leaves;
+}
+
+TEST(StudyBand, LosesWhatThePaperLoses) {
+  const LeafSet leaves = ball(14000, 0.2F);
+  const BandStudy band = study_band(leaves, device());
+  ASSERT_EQ(band.failure, "");
+  const auto lost = [&](const StudyRow& row) { return share_lost(row, leaves.vertices.size()); };
+  EXPECT_NEAR(lost(band.isotropic), 172.0 / 52648, 1e-3);
+  EXPECT_NEAR(lost(band.uncontrolled), 24766.0 / 52648, 1e-3);
+  EXPECT_EQ(band.isotropic.threshold, band.threshold);
+  EXPECT_EQ(band.uncontrolled.threshold, band.threshold);
+
+  const Report isotropic = extracted(leaves, band.isotropic, kBandReading);
+  expect_same(band.isotropic.metrics, isotropic.metrics);
+  EXPECT_DOUBLE_EQ(band.evenness, std::sqrt(isotropic.density.variance) / isotropic.density.mean);
+  const LeafSet fitted = scaled(leaves, band.leaf_scale);
+  expect_same(band.uncontrolled.metrics,
+              extracted(fitted, band.uncontrolled, kBandReading).metrics);
+  // The first band is that of Eqs. (9) and (10), which a row has by itself.
+  const StudyRow& usual = band.by_deviation.front().row;
+  expect_same(usual.metrics, extracted(fitted, usual, kBandReading).metrics);
+}
+
+TEST(StudyBand, GoesFromOneEndToTheOther) {
+  const BandStudy band = study_band(ball(14000, 0.2F), device());
+  ASSERT_EQ(band.failure, "");
+  EXPECT_EQ(name(band.by_share.front().band), "80–100%");
+  EXPECT_EQ(name(band.by_share.back().band), "0–20%");
+  EXPECT_EQ(name(band.by_deviation.front().band), "0 to 2 s");
+  EXPECT_EQ(name(band.by_deviation.back().band), "-1 to -0.5 s");
+  for (const auto* rows : {&band.by_share, &band.by_deviation}) {
+    std::vector<StudyRow> way{band.isotropic};
+    for (const BandRow& row : *rows) way.push_back(row.row);
+    way.push_back(band.uncontrolled);
+    for (std::size_t i = 1; i < way.size(); ++i) {
+      EXPECT_GE(way[i].off_site(), way[i - 1].off_site());
+      EXPECT_LE(share_dilated(way[i], way[0]), share_dilated(way[i - 1], way[0]));
+    }
+  }
+}
+
+TEST(StudyBand, SaysWhatCannotBeFitted) {
+  // In two places each leaf vertex is as dense as any other.
+  LeafSet leaves = ball(2, 0.2F);
+  const LeafVertex first = leaves.vertices[0], second = leaves.vertices[1];
+  for (int i = 0; i < 50; ++i) {
+    leaves.vertices.push_back(first);
+    leaves.vertices.push_back(second);
+  }
+  const BandStudy band = study_band(leaves, device());
+  EXPECT_NE(band.failure.find("of the leaf vertices"), std::string::npos) << band.failure;
+  EXPECT_TRUE(band.by_share.empty());
+  EXPECT_TRUE(band.by_deviation.empty());
 }
 
 TEST(StudyTree, OfWhichNothingIsDenseEnough) {

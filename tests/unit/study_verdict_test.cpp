@@ -157,6 +157,44 @@ TEST(StudyVerdict, ClearOfBothIsATenthAway) {
   EXPECT_EQ(outcome(table1({200, 100, 105}, {0, 1000, 90}), "2a"), Outcome::holds);
 }
 
+BandStudy band_study() {
+  BandStudy band;
+  band.isotropic = row(100, 0);
+  band.uncontrolled = row(0, 1000);
+  return band;
+}
+
+BandRow band_row(Band band, std::uint64_t dilated, std::uint64_t off_site) {
+  return {band, row(dilated, off_site)};
+}
+
+std::string words_of_2b(const BandStudy& band) {
+  for (const Verdict& verdict : verdicts(table1({200, 100, 150}, {0, 1000, 90}), &band)) {
+    const std::size_t words = verdict.figures.find("; ");
+    if (verdict.number == "2b") {
+      EXPECT_EQ(verdict.outcome, Outcome::fails) << "bands decide nothing";
+      return verdict.figures.substr(words + 2);
+    }
+    EXPECT_EQ(verdict.figures.find("band"), std::string::npos) << verdict.number;
+  }
+  return "";
+}
+
+TEST(StudyVerdict, ClearOfBothNamesTheBands) {
+  BandStudy band = band_study();
+  EXPECT_EQ(words_of_2b(band), "by “Where the band lies” it holds for no band");
+  band.by_share = {band_row({80, 100, true}, 99, 100), band_row({60, 80, true}, 80, 110),
+                   band_row({40, 60, true}, 60, 300), band_row({20, 40, true}, 40, 899),
+                   band_row({0, 20, true}, 20, 900)};
+  EXPECT_EQ(words_of_2b(band), "by “Where the band lies” it holds for the bands 60–80% to 20–40%");
+  band.by_share[2].row = row(5, 300);
+  band.by_deviation = {band_row({0, 2}, 99, 1), band_row({-0.5, 0}, 50, 500)};
+  EXPECT_EQ(words_of_2b(band),
+            "by “Where the band lies” it holds for the bands 60–80%, 20–40% and -0.5 to 0 s");
+  band.failure = "no T does";
+  EXPECT_EQ(words_of_2b(band), "no other bands could be tried");
+}
+
 TEST(StudyVerdict, BetweenTwoThatAreTheSameIsNowhere) {
   EXPECT_EQ(outcome(table1({200, 100, 150}, {7, 7, 8}), "2a"), Outcome::open);
   EXPECT_EQ(outcome(table1({200, 100, 250}, {7, 7, 8}), "2a"), Outcome::fails)

@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "leafhull/study.h"
+
+namespace leafhull {
+
+/// Claim 2b of a CTRLED between the ends of a band study.
+Outcome intermediate(const BandStudy& band, const StudyRow& controlled);
+
+}  // namespace leafhull
