@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include "density/control.h"
 #include "leafhull/error.h"
@@ -23,7 +24,8 @@ namespace {
 PointsKey points_key(const Report& report) {
   const Options& o = report.options;
   const bool area = o.points == PointSource::area;
-  return {*o.points, area ? *o.point_spacing * report.radius_max_model : 0};
+  const double radius = area ? report.radius_max_model : 0;
+  return {*o.points, radius * *o.point_spacing, radius};
 }
 
 DensityKey density_key(const Report& report) {
@@ -89,11 +91,11 @@ double share_below(std::span<const float> density, double threshold) {
 /// Both sliders keep what was asked for within this.
 constexpr double kSliderError = 0.01;
 
-/// T that leaves the share that is asked for outside, `unseen` of it being outside anyway.
+/// T that leaves the share `erosion` below it, for what the options ask.
 /// @throws Error usage: no T does, or only one that tears a sheet.
-double threshold_for_erosion(const Options& options, double unseen, std::span<const float> density,
+double threshold_for_erosion(const Options& options, double erosion,
+                             std::span<const float> density,
                              const std::vector<bool>& in_solid) {
-  const double erosion = *options.erosion - unseen;
   const double threshold = threshold_for_coverage(density, 1 - erosion);
   char text[200];
   if (options.points == PointSource::area) {
@@ -102,7 +104,7 @@ double threshold_for_erosion(const Options& options, double unseen, std::span<co
       std::snprintf(text, sizeof text,
                     "an erosion of %.3g cannot be had: most of this tree is sheets of one density, "
                     "%.3g, and a surface next to that is a film with holes; %.3g can",
-                    erosion, *whole / 0.6, share_below(density, *whole));
+                    *options.erosion, *whole / 0.6, share_below(density, *whole));
       throw Error(ErrorCode::usage, text, "Give that, or --coverage in place of --erosion.");
     }
   }
@@ -111,8 +113,8 @@ double threshold_for_erosion(const Options& options, double unseen, std::span<co
   if (std::abs(below - erosion) > kSliderError) {
     std::snprintf(text, sizeof text,
                   "an erosion of %.3g cannot be had: many leaf vertices have the density %.4g; "
-                  "%.3g can, and %.3g",
-                  erosion, threshold, below, with_equal);
+                  "about %.3g can, and %.3g",
+                  *options.erosion, threshold, below, with_equal);
     throw Error(ErrorCode::usage, text, "Give one of these, or --points area.");
   }
   return threshold;
@@ -120,11 +122,11 @@ double threshold_for_erosion(const Options& options, double unseen, std::span<co
 
 double threshold_of(const Options& options, const DensityStatistics& statistics,
                     std::span<const float> density, const std::vector<bool>& in_solid,
-                    double unseen) {
+                    double erosion) {
   const double threshold =
       options.threshold           ? *options.threshold
       : options.threshold_percent ? *options.threshold_percent / 100 * statistics.mean
-      : options.erosion           ? threshold_for_erosion(options, unseen, density, in_solid)
+      : options.erosion           ? threshold_for_erosion(options, erosion, density, in_solid)
                                   : threshold_for(options, density, in_solid);
   if (threshold < static_cast<double>(std::numeric_limits<float>::min())) {
     throw Error(ErrorCode::usage, "the threshold T is too small for a density",
@@ -232,46 +234,32 @@ std::vector<float> Stages::density_at(std::span<const Vec3d> places, const Repor
 }
 
 void Stages::prepare(Report& report) {
+  const Options& options = report.options;
+  sliders_ = {.finds_radius = options.dilation && !options.radius_max,
+              .below = options.erosion.value_or(0),
+              .low = 0,
+              .high = options.erosion.value_or(0)};
+  solve(report);
+}
+
+/// prepare_at() with R_max such that the dilation is as asked for, T leaving out `sliders_.below`.
+void Stages::solve(Report& report) {
+  if (!sliders_.finds_radius) return prepare_at(report);
   Options& options = report.options;
-  unseen_ = 0;
-  const bool finds_radius = options.dilation && !options.radius_max;
-  if (!finds_radius && !options.erosion) return prepare_at(report);
-  if (!finds_radius) {
-    (void)prepare_eroded(report);
-    return;
-  }
   const double crown_unit = leaves_.crown.longest_side() / kCrownUnits;
   const double start = radius_max_in_model_units(leaves_, options) / crown_unit;
   const auto dilation_at = [&](double radius) {
     options.radius_max = radius;
-    return prepare_eroded(report).dilation;
+    prepare_at(report);
+    return dilation(report);
   };
   const RadiusFound found = find_radius(*options.dilation, start, dilation_at);
   if (!found.reached) refuse_dilation(found, options);
   if (options.radius_max != found.radius) (void)dilation_at(found.radius);
 }
 
-Stages::Shares Stages::prepare_eroded(Report& report) {
-  constexpr int kMostRounds = 4;
-  for (int round = 0;; ++round) {
-    prepare_at(report);
-    const Shares found = shares(report);
-    if (!report.options.erosion || round == kMostRounds ||
-        std::abs(found.erosion - *report.options.erosion) <= kSliderError / 3) {
-      return found;
-    }
-    take_erosion(found.erosion, report.options);
-  }
-}
-
-/// T leaves out what is asked for but for what is left out anyway.
-void Stages::take_erosion(double erosion, const Options& options) {
-  constexpr double kLeast = 1e-3;  // of the leaves, below T
-  unseen_ = std::min(unseen_ + erosion - *options.erosion, *options.erosion - kLeast);
-}
-
 Stages::Surface Stages::surface(Report& prepared, Mesher mesher) {
-  constexpr int kMostRounds = 4;
+  constexpr int kMostRounds = 8;
   for (int round = 1;; ++round) {
     sample(prepared, {prepared.threshold});
     Surface surface{take_field(prepared), {}};
@@ -281,20 +269,24 @@ Stages::Surface Stages::surface(Report& prepared, Mesher mesher) {
 }
 
 /// Whether a surface, polygonise() having told its pieces, has the erosion that is asked for. If
-/// not, sets another T.
+/// not, sets another T, and with a dilation another R_max: beside what T leaves out there are pieces
+/// that are dropped, and what the lattice does not see.
 bool Stages::is_eroded(const Field& field, bool is_last, Report& report) {
+  constexpr double kLeast = 1e-3;  // of the leaves, below T
   if (!report.options.erosion) return true;
   const double asked = *report.options.erosion;
-  const double found = erosion(field, field.lattice(), dropped_cells_);
-  if (std::abs(found - asked) <= kSliderError / 2) return true;
-  const double before = unseen_;
-  take_erosion(found, report.options);
-  if (!is_last && unseen_ != before) {
-    prepare_at(report);
-    return false;
+  const double missed = erosion(field, field.lattice(), dropped_cells_) - asked;
+  if (std::abs(missed) <= 0.8 * kSliderError) return true;
+  auto& [finds_radius, below, low, high] = sliders_;
+  (missed > 0 ? high : low) = below;
+  if (is_last || high - low < kLeast) {
+    if (std::abs(missed) > kSliderError) refuse_erosion(asked + missed, asked);
+    return true;
   }
-  if (std::abs(found - asked) > kSliderError) refuse_erosion(found, asked);
-  return true;
+  const double next = below - missed;
+  below = low < next && next < high ? next : (low + high) / 2;
+  solve(report);
+  return false;
 }
 
 double Stages::erosion(const Field& field, const Lattice& lattice,
@@ -315,8 +307,9 @@ void Stages::prepare_at(Report& report) {
   const PointsKey key = points_key(report);
   watch_.start("points");
   points_.update(key, [&] {
-    const auto& [source, spacing] = key;
-    return source == PointSource::area ? area_points(leaves_, spacing) : vertex_points(leaves_);
+    const auto& [source, spacing, radius] = key;
+    return source == PointSource::area ? area_points(leaves_, spacing, radius)
+                                       : vertex_points(leaves_);
   });
   const std::vector<LeafPoint>& points = points_.value.points;
 
@@ -354,7 +347,7 @@ void Stages::prepare_at(Report& report) {
                  : density_at(points_.value.samples, report, kernels_.value);
   });
   report.threshold = threshold_of(options, report.density, density_there_.value,
-                                  points_.value.in_solid, unseen_);
+                                  points_.value.in_solid, sliders_.below);
   describe(report);
 }
 
@@ -430,27 +423,19 @@ Metrics Stages::metrics_of(const Field& field, const Lattice& lattice, const Rep
       area ? local(positions_of(leaves_.vertices), lattice) : std::vector<Vec3d>());
 }
 
-Stages::Shares Stages::shares(const Report& prepared) {
+double Stages::dilation(const Report& prepared) {
   const Options& options = prepared.options;
   watch_.start("dilation");
-  const double smallest = *options.min_component;
-  shares_.update({kernels_key(prepared), prepared.threshold, *options.hollows, smallest}, [&] {
+  dilation_.update({kernels_key(prepared), prepared.threshold, *options.hollows}, [&] {
     const Lattice lattice = Lattice::near(leaves_.crown.low, dilation_voxel(leaves_, prepared));
     DensityFunction density(device_, kernels_.value, hash_.value, lattice, options.falloff);
     auto sampled = density.sample_band({prepared.threshold}, 1, false, Lists::forget, [](double) {});
     const bool fill = options.hollows == Hollows::fill;
     const Field field =
         fill ? fill_hollows(std::move(sampled.field)) : std::move(sampled.field);
-    Shares found;
-    found.dilation = dilated_share(metrics_of(field, lattice, prepared));
-    if (options.erosion) {
-      Polygons polygons = mesh_bricks(field);
-      const ComponentCount pieces = drop_small_components(polygons, smallest);
-      found.erosion = erosion(field, lattice, pieces.dropped_cells);
-    }
-    return found;
+    return dilated_share(metrics_of(field, lattice, prepared));
   });
-  return shares_.value;
+  return dilation_.value;
 }
 
 void Stages::measure(const Field& field, Report& report) {
@@ -460,7 +445,7 @@ void Stages::measure(const Field& field, Report& report) {
   report.metrics = metrics_of(field, lattice, report);
   report.metrics.off_site_exact = off_site;
   const bool is_known = report.voxel_size == dilation_voxel(leaves_, report);
-  report.metrics.dilation = is_known ? dilated_share(report.metrics) : shares(report).dilation;
+  report.metrics.dilation = is_known ? dilated_share(report.metrics) : dilation(report);
   report.metrics.erosion = erosion(field, lattice, dropped_cells_);
   report.counts.evaluated_voxels = field.sample_count();
   report.counts.evaluated_pairs = sampled_.value.pairs;

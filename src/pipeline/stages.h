@@ -42,8 +42,9 @@ class Kept {
   std::optional<Key> key_;
 };
 
-/// What the leaf points depend on: their kind and their spacing, model units.
-using PointsKey = std::tuple<PointSource, double>;
+/// What the leaf points depend on: their kind, and of parts of area their spacing and R_max, model
+/// units.
+using PointsKey = std::tuple<PointSource, double, double>;
 /// What N_iso depends on: the points, R_max, k, where it is taken, and the voxel size if from the
 /// lattice.
 using DensityKey = std::tuple<PointsKey, double, int, DensitySource, double>;
@@ -122,19 +123,12 @@ class Stages {
     std::shared_ptr<const BrickList> lists;
   };
 
-  /// What the shape is like on the lattice of a dilation.
-  struct Shares {
-    double dilation = 0;
-    double erosion = 0;  ///< where one is asked for
-  };
-
   void prepare_at(Report& report);
-  /// prepare_at() until the erosion is as asked for.
-  Shares prepare_eroded(Report& report);
-  void take_erosion(double erosion, const Options& options);
+  void solve(Report& report);
   /// Of a field of the report's tree.
   Metrics metrics_of(const Field& field, const Lattice& lattice, const Report& report) const;
-  Shares shares(const Report& prepared);
+  /// What Metrics says.
+  double dilation(const Report& prepared);
   bool is_eroded(const Field& field, bool is_last, Report& report);
   double erosion(const Field& field, const Lattice& lattice, std::span<const Coord> dropped) const;
 
@@ -155,10 +149,13 @@ class Stages {
   Kept<KernelsKey, std::vector<float>> density_there_;  ///< N at the places on the leaves
   std::optional<DensityFunction> density_;
   Kept<std::tuple<FieldKey, std::vector<double>>, Sampled> sampled_;
-  Kept<std::tuple<KernelsKey, double, Hollows, double>, Shares> shares_;  ///< by T, min_component
-  /// Of the leaves at T and above, the share that is not in the shape: in pieces that are dropped,
-  /// or that the lattice does not see.
-  double unseen_ = 0;
+  Kept<std::tuple<KernelsKey, double, Hollows>, double> dilation_;  ///< by T
+  /// How far the search for an erosion and a dilation is.
+  struct Sliders {
+    bool finds_radius;
+    double below;      ///< the share of the leaves that T leaves out
+    double low, high;  ///< shares between which it lies
+  } sliders_{};
   std::vector<Coord> dropped_cells_;  ///< of the last polygonise()
 };
 

@@ -9,12 +9,13 @@
 namespace leafhull {
 
 /// Whether a closed surface is so thick that kernels on it would leave its middle empty, and is
-/// therefore filled. `spacing`: that of leaf points, model units.
-bool is_filled(const LeafSolid& solid, double spacing);
+/// therefore filled. `radius_max`: R_max, model units.
+bool is_filled(const LeafSolid& solid, double radius_max);
 
 /// Points in the cells of the world's lattice that a solid meets, each at the middle of what it
 /// holds there and with that share of the solid's leaf area: as if the leaves were spread evenly
 /// over its volume. Their kernels are spheres of R_max under every method.
-std::vector<LeafPoint> fill(const LeafSolid& solid, double spacing);
+/// @throws Error usage where it would take more than ten million.
+std::vector<LeafPoint> fill(const LeafSolid& solid, double radius_max);
 
 }  // namespace leafhull

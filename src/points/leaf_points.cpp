@@ -47,7 +47,7 @@ LeafPoints vertex_points(const LeafSet& leaves) {
   return result;
 }
 
-LeafPoints area_points(const LeafSet& leaves, double spacing) {
+LeafPoints area_points(const LeafSet& leaves, double spacing, double radius_max) {
   if (!leaves.sheets) {
     throw Error(ErrorCode::usage, "these leaves have vertices alone and no area",
                 "Take them from find_leaves, or give --points vertices.");
@@ -61,12 +61,12 @@ LeafPoints area_points(const LeafSet& leaves, double spacing) {
   LeafPoints result;
   const auto is_in_solid = [&](const LeafSheet& sheet) {
     return sheet.solid >= 0 &&
-           is_filled(sheets.solids[static_cast<std::size_t>(sheet.solid)], spacing);
+           is_filled(sheets.solids[static_cast<std::size_t>(sheet.solid)], radius_max);
   };
   result.points = join_in_cells(place_parts(sheets, spacing, is_in_solid), spacing);
   for (const LeafSolid& solid : sheets.solids) {
-    if (!is_filled(solid, spacing)) continue;
-    const std::vector<LeafPoint> inside = fill(solid, spacing);
+    if (!is_filled(solid, radius_max)) continue;
+    const std::vector<LeafPoint> inside = fill(solid, radius_max);
     result.points.insert(result.points.end(), inside.begin(), inside.end());
   }
   sort_points(result.points, leaves.crown);

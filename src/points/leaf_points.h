@@ -32,8 +32,9 @@ LeafPoints vertex_points(const LeafSet& leaves);
 /// in their plane below kLeastRadius * spacing. A closed surface is no sheet: it is filled with
 /// points, over which its area is spread evenly, unless it is thinner than kernels reach.
 /// @param spacing model units, > 0.
+/// @param radius_max R_max, model units, by which closed surfaces are filled; > 0.
 /// @throws Error usage where it would make more than ten million parts; input where no leaf is
 /// visible.
-LeafPoints area_points(const LeafSet& leaves, double spacing);
+LeafPoints area_points(const LeafSet& leaves, double spacing, double radius_max);
 
 }  // namespace leafhull

@@ -18,6 +18,13 @@ LeafPoint leaf(float major, float minor, double area = 0) {
 
 const Box kCrown{{-1, -1, -1}, {1, 1, 1}};
 
+/// The paper's band where the options have none; this room knows no styles.
+Options resolve(Options options) {
+  if (!options.band_low && !options.band_low_percent) options.band_low = 0;
+  if (!options.band_high && !options.band_high_percent) options.band_high = 2;
+  return options;
+}
+
 Options controlled(double flatness) {
   Options options;
   options.method = Method::controlled;
@@ -153,6 +160,7 @@ TEST(Control, TheBandByShares) {
 TEST(Control, TheBandByShareOfAreaIsNoNarrowerThanARipple) {
   const std::vector<LeafPoint> leaves{leaf(1, 1, 1), leaf(1, 1, 2), leaf(1, 1, 1)};
   Options options;
+  options.points = PointSource::area;
   options.band_low_percent = 30;
   options.band_high_percent = 75;
   const DensityStatistics s =

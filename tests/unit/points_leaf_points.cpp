@@ -14,6 +14,10 @@
 namespace leafhull {
 namespace {
 
+LeafPoints area_points(const LeafSet& leaves, double spacing) {
+  return leafhull::area_points(leaves, spacing, 3 * spacing);
+}
+
 using test::card;
 using test::masked;
 using test::tree_of;
