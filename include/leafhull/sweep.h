@@ -78,20 +78,22 @@ SweepSummary run_sweep(const LeafSet& leaves, const SweepPlan& plan, Device& dev
                        const SweepFolder& folder, const RunDescription& run,
                        const SweepProgress& progress = {});
 
-/// One choice of coverage and R_max, and what it comes to.
+/// One choice of erosion and dilation, and what it comes to.
 struct Suggestion {
-  double coverage = 0, radius_max = 0;  ///< R_max in crown units
-  bool empty = false;                   ///< no sample reaches T
+  double erosion = 0, dilation = 0;  ///< as asked for
+  std::string failure;               ///< why the tree cannot have them; empty where it can
+  bool empty = false;                ///< no sample reaches T
   Report report;
   double dilated_volume = 0;            ///< dilated voxels, model units cubed
   std::optional<double> dilated_share;  ///< of the leaves' bounding box, where it has a volume
-  double covered = 0;  ///< of the leaf vertices; other than `coverage` where many have one density
 };
 
-/// What an artist would choose from: coverages 0.85, 0.92 and 0.98 by R_max 1.5, 2.5 and 4, all
-/// else as in `options`, which hold neither a threshold nor a radius.
+/// What an artist would choose from: erosions of 2, 12 and 25% by the least dilation that the tree
+/// can have with each, one between, and the most, with R_max from 1.5 to 9 crown units; all else as
+/// in `options`, which hold neither a threshold nor a radius. Where dilations alone would not tell
+/// neighbours in a row apart, their erosions differ too, by 5%.
 struct Suggestions {
-  std::vector<Suggestion> choices;  ///< the radius changes fastest
+  std::vector<Suggestion> choices;  ///< the dilation changes fastest
   Picture strip;                    ///< a labelled picture of each choice
 };
 

@@ -18,8 +18,8 @@ namespace leafhull::cli {
 namespace {
 
 std::string command_for(const Arguments& arguments, const Suggestion& choice) {
-  return "leafhull extract " + quoted(arguments.tree.string()) + arguments.typed + " --coverage " +
-         number(choice.coverage) + " --radius-max " + number(choice.radius_max) + " -o " +
+  return "leafhull extract " + quoted(arguments.tree.string()) + arguments.typed + " --erosion " +
+         number(choice.erosion) + " --dilation " + number(choice.dilation) + " -o " +
          quoted(arguments.tree.stem().string() + "-shape.glb");
 }
 
@@ -33,20 +33,25 @@ std::string percent(std::optional<double> fraction) {
 
 void print_table(const Arguments& arguments, const std::vector<Suggestion>& choices) {
   std::vector<std::vector<std::string>> rows = {
-      {"coverage", "R_max", "T", "inside", "dilated volume", "of the box", "components"}};
+      {"erosion", "dilation", "R_max", "T", "dilated volume", "of the box", "components"}};
   for (const Suggestion& choice : choices) {
     const Report& report = choice.report;
-    rows.push_back({number(choice.coverage), number(choice.radius_max), number(report.threshold, 4),
-                    percent(choice.covered), volume(choice.dilated_volume),
-                    percent(choice.dilated_share),
-                    choice.empty ? "no surface" : count(report.counts.components)});
+    const bool had = choice.failure.empty();
+    rows.push_back({percent(choice.erosion), percent(choice.dilation),
+                    had ? number(*report.options.radius_max, 3) : "-",
+                    had ? number(report.threshold, 4) : "-",
+                    had ? volume(choice.dilated_volume) : "-",
+                    had ? percent(choice.dilated_share) : "-",
+                    !had           ? "cannot be had"
+                    : choice.empty ? "no surface"
+                                   : count(report.counts.components)});
   }
   std::cout << table(rows)
             << "\n"
-               "coverage        how much of the leaves shall lie inside: lower is thinner\n"
-               "R_max           in crown units, 1/64 of the crown: larger is rounder\n"
-               "                (what extract takes unasked: coverage 0.92, R_max 2.5)\n"
-               "inside          how much of them does: more where many have the same density\n"
+               "erosion         how much of the leaf area is left outside: more is thinner\n"
+               "dilation        how much of the shape, in 64 voxels along it, holds no leaf: more\n"
+               "                is rounder\n"
+               "R_max           the radius that this takes, in crown units, 1/64 of the crown\n"
                "dilated volume  what the shape fills beyond the leaves, model units cubed, and as\n"
                "                a share of the leaves' bounding box\n"
                "\nTry\n";
@@ -60,15 +65,19 @@ void print_json(const Arguments& arguments, const std::vector<Suggestion>& choic
   using Json = nlohmann::ordered_json;
   Json list = Json::array();
   for (const Suggestion& choice : choices) {
+    const bool had = choice.failure.empty();
     list.push_back(
-        {{"coverage", choice.coverage},
-         {"radius_max", choice.radius_max},
-         {"threshold", choice.report.threshold},
+        {{"erosion", choice.erosion},
+         {"dilation", choice.dilation},
+         {"failure", had ? Json() : Json(choice.failure)},
+         {"radius_max", had ? Json(*choice.report.options.radius_max) : Json()},
+         {"threshold", had ? Json(choice.report.threshold) : Json()},
          {"empty", choice.empty},
+         {"erosion_reached", choice.report.metrics.erosion},
+         {"dilation_reached", choice.report.metrics.dilation},
          {"dilated_voxels", choice.report.metrics.dilated_voxels},
          {"dilated_volume", choice.dilated_volume},
          {"dilated_share_of_box", choice.dilated_share ? Json(*choice.dilated_share) : Json()},
-         {"covered", choice.covered},
          {"components", choice.report.counts.components},
          {"command", command_for(arguments, choice)}});
   }
@@ -116,8 +125,8 @@ Verb suggest_verb() {
   return {.name = "suggest",
           .summary = "nine shapes of a tree to choose from, as a table and pictures",
           .about =
-              "Tries coverages 0.85, 0.92 and 0.98 with R_max 1.5, 2.5 and 4 crown units on TREE:\n"
-              "what each comes to, a picture of each, and the command for each.",
+              "Tries erosions of 2, 12 and 25% with the least and the most dilation that go with\n"
+              "each on TREE, and one between: what each comes to, a picture, and the command.",
           .examples =
               "  leafhull suggest birch.glb\n"
               "  leafhull suggest birch.glb --preset draft -o strip.png --json\n",

@@ -14,16 +14,31 @@ constexpr int kMostCalls = 16;
 /// How much the dilation grows as R_max grows e-fold, on trees of all kinds: 0.2 to 0.5.
 constexpr double kSlope = 0.3, kLeastSlope = 0.1;
 /// Of the logarithm of the radius: the longest step into the unknown, as small radii are dear; and
-/// what the lattice cannot tell apart, at a slope and at a peak.
-constexpr double kLongestStep = 0.8, kShortest = 0.002, kShortestAtPeak = 0.1;
+/// what the lattice cannot tell apart, at a slope and at a peak; and what a peak may hide in.
+constexpr double kLongestStep = 0.8, kShortest = 0.002, kShortestAtPeak = 0.1, kWideGap = 0.75;
 
 struct Try {
   double x = 0;       ///< the logarithm of the radius
   double excess = 0;  ///< of the dilation over what is wanted
 };
 
-/// Where to look next, or nowhere. `tries` ascend by x; none is close.
-std::optional<double> next(const std::vector<Try>& tries, double least, double most) {
+/// Where nothing has been tried yet for long, or nowhere.
+std::optional<double> widest_gap(const std::vector<Try>& tries, double least, double most) {
+  std::vector<double> places{least};
+  for (const Try& t : tries) places.push_back(t.x);
+  places.push_back(most);
+  double widest = kWideGap;
+  std::optional<double> middle;
+  for (std::size_t i = 1; i < places.size(); ++i) {
+    const double gap = places[i] - places[i - 1];
+    if (gap > widest) widest = gap, middle = places[i - 1] + gap / 2;
+  }
+  return middle;
+}
+
+/// Where to look next, or nowhere: between two tries of which one is too low and one too high, else
+/// on from the nearest. `tries` ascend by x; none is close.
+std::optional<double> next_nearby(const std::vector<Try>& tries, double least, double most) {
   for (std::size_t i = 1; i < tries.size(); ++i) {
     const Try &low = tries[i - 1], &high = tries[i];
     if (low.excess * high.excess > 0) continue;
@@ -32,7 +47,6 @@ std::optional<double> next(const std::vector<Try>& tries, double least, double m
     // Away from both ends, so that the interval always shrinks.
     return std::lerp(low.x, high.x, std::clamp(share, 0.05, 0.95));
   }
-  // All on one side: on from the nearest.
   const auto nearest =
       std::ranges::min_element(tries, {}, [](const Try& t) { return std::abs(t.excess); });
   const bool is_first = nearest == tries.begin(), is_last = nearest + 1 == tries.end();
@@ -72,7 +86,8 @@ RadiusFound find_radius(double wanted, double start,
     if (error <= kClose) break;
     tries.push_back({*x, dilation - wanted});
     std::ranges::sort(tries, {}, &Try::x);
-    x = next(tries, least, most);
+    x = next_nearby(tries, least, most);
+    if (!x) x = widest_gap(tries, least, most);
   }
   return best;
 }

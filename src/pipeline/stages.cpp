@@ -393,6 +393,7 @@ Field Stages::field(const Report& prepared) const {
 }
 
 Field Stages::take_field(const Report& prepared) {
+  sampled_.expire();
   return without_hollows(std::move(sampled_.value.field), prepared);
 }
 

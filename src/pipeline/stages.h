@@ -32,9 +32,12 @@ class Kept {
   }
 
   void forget() {
-    key_.reset();
+    expire();
     value = Value();
   }
+
+  /// Part of the value is being taken away: it is not handed out again.
+  void expire() { key_.reset(); }
 
   Value value = Value();
 

@@ -1,50 +1,127 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstdio>
+#include <vector>
 
-#include "leafhull/error.h"
 #include "leafhull/series.h"
 #include "leafhull/sweep.h"
 
 namespace leafhull {
 namespace {
 
-constexpr double kCoverages[] = {0.85, 0.92, 0.98};
-constexpr double kRadii[] = {1.5, 2.5, 4};  // crown units, ascending
+constexpr std::array kErosions{0.02, 0.12, 0.25};
+/// Crown units. What dilations a tree can have is read from shapes with these.
+constexpr std::array kRadii{1.5, 3.5, 9.0};
+/// Neighbours that differ by less in volume than this factor differ in erosion too, by so much.
+constexpr double kClearlyLarger = 1.15, kErosionStep = 0.05;
 constexpr int kPictureWidth = 320, kPictureHeight = 320;
 
+std::string percent(double share) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g%%", 100 * share);
+  return text;
+}
+
 std::vector<std::string> label(const Suggestion& choice) {
-  char text[80], result[80];
-  std::snprintf(text, sizeof text, "coverage %g, R_max %g", choice.coverage, choice.radius_max);
-  const auto components = static_cast<unsigned long long>(choice.report.counts.components);
-  std::snprintf(result, sizeof result, "T = %.4g, %llu component%s", choice.report.threshold,
-                components, components == 1 ? "" : "s");
-  return {text, choice.empty ? "no surface" : result};
+  const auto pieces = static_cast<unsigned long long>(choice.report.counts.components);
+  char result[80];
+  std::snprintf(result, sizeof result, "R_max %.3g, %llu component%s",
+                choice.report.options.radius_max.value_or(0), pieces, pieces == 1 ? "" : "s");
+  return {"erosion " + percent(choice.erosion) + ", dilation " + percent(choice.dilation),
+          !choice.failure.empty() ? "cannot be had"
+          : choice.empty          ? "no surface"
+                                  : result};
 }
 
 double volume(const Box& box) { return box.size().x * box.size().y * box.size().z; }
+
+struct DilationRange {
+  double least = 1, most = 0;
+  /// The dilation whose volume divides the range's evenly, `share` of the way from the least. Of a
+  /// shape's voxels those with a leaf stay the same, so that its volume goes with 1 / (1 - D).
+  double at(double share) const {
+    const double empty = std::pow(1 - least, 1 - share) * std::pow(1 - most, share);
+    return std::round(1000 * (1 - empty)) / 1000;
+  }
+  bool tells_apart() const {
+    return (1 - least) > kClearlyLarger * kClearlyLarger * (1 - most);
+  }
+};
+
+/// What dilations go with each erosion.
+std::vector<DilationRange> ranges(const LeafSet& leaves, const Options& options,
+                                  const std::vector<double>& erosions, Device& device,
+                                  const Progress& progress) {
+  std::vector<Options> all;
+  for (const double erosion : erosions) {
+    for (const double radius : kRadii) {
+      all.push_back(options);
+      all.back().erosion = erosion;
+      all.back().radius_max = radius;
+    }
+  }
+  std::vector<DilationRange> found(erosions.size());
+  const SeriesVisitor visit = [&](std::size_t i, SeriesEntry&& entry) {
+    if (!entry.failure.empty() || entry.empty()) return true;
+    DilationRange& range = found[i / kRadii.size()];
+    range.least = std::min(range.least, entry.report.metrics.dilation);
+    range.most = std::max(range.most, entry.report.metrics.dilation);
+    return true;
+  };
+  extract_series(leaves, all, device, visit, progress);
+  for (DilationRange& range : found) {
+    if (range.least > range.most) range = {0.5, 0.5};  // no shape has this erosion: tried, and told
+  }
+  return found;
+}
+
+/// Erosions row by row, dilations rising along each.
+std::vector<Suggestion> choices(const LeafSet& leaves, const Options& options, Device& device,
+                                const Progress& progress) {
+  constexpr std::size_t kColumns = kRadii.size();
+  const std::vector<double> rows(kErosions.begin(), kErosions.end());
+  const std::vector<DilationRange> of_rows = ranges(leaves, options, rows, device, progress);
+  std::vector<double> erosions;
+  for (std::size_t row = 0; row < rows.size(); ++row) {
+    for (std::size_t column = 0; column < kColumns; ++column) {
+      const double more = of_rows[row].tells_apart() ? 0 : kErosionStep;
+      erosions.push_back(rows[row] + more * static_cast<double>(kColumns - 1 - column));
+    }
+  }
+  std::vector<double> different = erosions;
+  different.erase(std::unique(different.begin(), different.end()), different.end());
+  const std::vector<DilationRange> known = ranges(leaves, options, different, device, progress);
+  std::vector<Suggestion> result(erosions.size());
+  for (std::size_t i = 0; i < result.size(); ++i) {
+    const double share = static_cast<double>(i % kColumns) / (kColumns - 1);
+    const auto at = std::ranges::find(different, erosions[i]) - different.begin();
+    result[i].erosion = erosions[i];
+    result[i].dilation = known[static_cast<std::size_t>(at)].at(share);
+  }
+  return result;
+}
 
 }  // namespace
 
 Suggestions suggest(const LeafSet& leaves, const Options& options, Device& device,
                     std::string_view title, const Progress& progress) {
   Suggestions result;
+  result.choices = choices(leaves, options, device, progress);
   std::vector<Options> all;
-  for (const double coverage : kCoverages) {
-    for (const double radius_max : kRadii) {
-      Suggestion& choice = result.choices.emplace_back();
-      choice.coverage = coverage, choice.radius_max = radius_max;
-      all.push_back(options);
-      all.back().coverage = coverage;
-      all.back().radius_max = radius_max;
-    }
+  for (const Suggestion& choice : result.choices) {
+    all.push_back(options);
+    all.back().erosion = choice.erosion;
+    all.back().dilation = choice.dilation;
   }
 
-  const Frame frame = frame_of(leaves, radius_max_in_model_units(leaves, all.back()));
+  const double crown_unit = leaves.crown.longest_side() / kCrownUnits;
+  const Frame frame = frame_of(leaves, kRadii.back() / 2 * crown_unit);
   std::vector<LabelledPicture> pictures(all.size());
   const SeriesVisitor visit = [&](std::size_t i, SeriesEntry&& entry) {
-    if (!entry.failure.empty()) throw Error(ErrorCode::usage, entry.failure);
     Suggestion& choice = result.choices[i];
+    choice.failure = entry.failure;
     choice.empty = entry.empty();
     choice.report = std::move(entry.report);
     const double side = choice.report.voxel_size;
@@ -53,13 +130,12 @@ Suggestions suggest(const LeafSet& leaves, const Options& options, Device& devic
     if (volume(leaves.crown) > 0) {
       choice.dilated_share = choice.dilated_volume / volume(leaves.crown);
     }
-    choice.covered = choice.report.covered;
     pictures[i].picture = draw_shape(entry.mesh, frame, kPictureWidth, kPictureHeight);
     pictures[i].lines = label(choice);
     return true;
   };
   extract_series(leaves, all, device, visit, progress);
-  result.strip = contact_sheet(title, pictures, static_cast<int>(std::size(kRadii)));
+  result.strip = contact_sheet(title, pictures, static_cast<int>(kRadii.size()));
   return result;
 }
 
