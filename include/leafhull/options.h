@@ -93,8 +93,8 @@ int resolution_of(Preset preset);
 /// @throws Error usage: a value out of range, or two options that contradict each other.
 Options resolve(Options options);
 
-/// R_max in model units. `resolved` as resolve() returns them; where R_max is still to be found, the
-/// style's, from which the search starts. SPEC: 4.
+/// R_max in model units. `resolved` as resolve() returns them; where R_max is still to be found,
+/// the style's, from which the search starts. SPEC: 4.
 double radius_max_in_model_units(const LeafSet& leaves, const Options& resolved);
 
 /// One row per option: the flags, the report's parameters and README's table derive from it.

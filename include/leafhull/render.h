@@ -162,6 +162,9 @@ PictureSummary write_pictures(const Subject& subject, const PictureOptions& opti
                               const PictureFiles& files, Device& device,
                               const Progress& progress = {});
 
+/// Whose values the rows of a plate have: leafhull's styles of leaf area, or the paper's.
+enum class Plate { own, paper };
+
 /// Looks at what figure17() would take, before any work is done; see check_picture.
 /// @throws Error usage, as check_picture; or a sheet that is too large for a PNG file.
 void check_figure17(const PictureOptions& picture, const DeviceInfo* device = nullptr);
@@ -171,7 +174,7 @@ void check_figure17(const PictureOptions& picture, const DeviceInfo* device = nu
 /// `look` and `turn` do not count.
 /// @throws Error as extract and draw do.
 Picture figure17(const std::shared_ptr<const TreeModel>& tree, const LeafSet& leaves,
-                 const Options& options, Surfacing surfacing, const PictureOptions& picture,
-                 Device& device, const Progress& progress = {});
+                 const Options& options, Plate plate, Surfacing surfacing,
+                 const PictureOptions& picture, Device& device, const Progress& progress = {});
 
 }  // namespace leafhull

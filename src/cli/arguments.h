@@ -43,7 +43,7 @@ struct Arguments {
   std::optional<Surfacing> surfacing;
   std::optional<double> detail;
   std::optional<bool> is_shape;
-  bool figure17 = false;
+  std::optional<Plate> figure17;
 
   // scatter
   ScatterOptions scatter;

@@ -91,7 +91,8 @@ std::vector<std::string> without_effect(const Arguments& arguments, const Option
     }
   }
   if (resolved.dilation) warn("radius-unit", "with --dilation, which finds R_max in crown units");
-  if (!resolved.dilation && arguments.given.contains("radius-unit") && !arguments.given.contains("radius-max")) {
+  if (!resolved.dilation && arguments.given.contains("radius-unit") &&
+      !arguments.given.contains("radius-max")) {
     warnings.push_back("--radius-unit " + std::string(name(resolved.radius_unit)) +
                        " without --radius-max: the style's " + number(*resolved.radius_max) +
                        " counts in that unit");

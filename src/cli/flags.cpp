@@ -50,6 +50,8 @@ Flag option_flag(const OptionRow& row) {
           }};
 }
 
+std::string with_word(const Flag& flag) { return flag.spelling + "-" + std::string(flag.word); }
+
 void set_values(Arguments& arguments, const OptionRow& row, const std::string& text) {
   const SweptOption option = swept_option(row, text);
   if (option.values.size() == 1 && option.values.front() == text) {
@@ -229,11 +231,27 @@ std::vector<Flag> all_of(std::initializer_list<std::vector<Flag>> groups) {
   return flags;
 }
 
+std::vector<std::string> joined_words(std::vector<std::string> command,
+                                      const std::vector<Flag>& flags) {
+  for (const Flag& flag : flags) {
+    if (flag.word.empty()) continue;
+    for (std::size_t i = 1; i < command.size(); ++i) {
+      if (command[i - 1] != flag.spelling || command[i] != flag.word) continue;
+      command[i - 1] = with_word(flag);
+      command.erase(command.begin() + static_cast<std::ptrdiff_t>(i));
+    }
+  }
+  return command;
+}
+
 void add_flags(CLI::App& app, const std::vector<Flag>& flags, Arguments& arguments) {
   app.set_help_flag();
   for (const Flag& flag : flags) {
     if (flag.value.empty()) {
       app.add_flag_callback(flag.spelling, [&flag, &arguments] { flag.set(arguments, {}); });
+      if (flag.word.empty()) continue;
+      app.add_flag_callback(with_word(flag),
+                            [&flag, &arguments] { flag.set(arguments, std::string(flag.word)); });
       continue;
     }
     app.add_option_function<std::vector<std::string>>(

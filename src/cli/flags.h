@@ -19,6 +19,7 @@ namespace leafhull::cli {
 struct Flag {
   std::string spelling;         ///< "-o,--output"
   std::string_view value = "";  ///< "FILE"; empty: the flag takes none
+  std::string_view word = "";   ///< what may follow a flag that takes no other value
   std::string_view group;
   std::string_view unit = "", range = "", default_value = "";
   std::string_view help;
@@ -29,6 +30,10 @@ struct Flag {
 
 /// An option's flag: --no-snap of `snap`, which is on without it.
 std::string spelling(const OptionRow& row);
+
+/// The words of a command, each flag made one with the word that may follow it.
+std::vector<std::string> joined_words(std::vector<std::string> command,
+                                      const std::vector<Flag>& flags);
 
 /// The rows of option_table(), or of one group of them.
 std::vector<Flag> option_flags(std::string_view group = {});

@@ -82,7 +82,9 @@ void run(const std::vector<std::string>& command) {
   for (const Verb& verb : verbs) add_verb(app, verb, arguments);
 
   try {
-    app.parse(std::vector<std::string>(command.rbegin(), command.rend() - 1));
+    std::vector<std::string> words = command;
+    for (const Verb& verb : verbs) words = joined_words(std::move(words), verb.flags);
+    app.parse(std::vector<std::string>(words.rbegin(), words.rend() - 1));
   } catch (const CLI::CallForHelp&) {
     std::cout << app.help();
     return;

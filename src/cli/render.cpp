@@ -203,8 +203,8 @@ class Run {
   void write_figure17(const std::shared_ptr<const TreeModel>& model, const LeafSet& leaves,
                       Device& device) {
     const fs::path& file = arguments_.pictures.files.front();
-    const Picture plate = figure17(model, leaves, arguments_.options, surfacing(arguments_),
-                                   drawing_, device, progress());
+    const Picture plate = figure17(model, leaves, arguments_.options, *arguments_.figure17,
+                                   surfacing(arguments_), drawing_, device, progress());
     const std::vector<std::uint8_t> png = encode_png(plate);
     write_file(file, {reinterpret_cast<const char*>(png.data()), png.size()});
     console_.say("leafhull: Figure 17 of " + arguments_.tree.filename().string() + " in " +

@@ -105,11 +105,16 @@ std::vector<Flag> picture_flags() {
        .set = [](Arguments& a,
                  const std::string& text) { a.is_shape = choice("--as", text, kKinds) == 1; }},
       {.spelling = "--figure17",
+       .word = "paper",
        .group = "Picture",
+       .range = "nothing, or paper for the paper's values",
        .default_value = "off",
        .help =
            "the paper's plate: thin, fat and the previous method, in two looks; sizes are of one",
-       .set = [](Arguments& a, const std::string&) { a.figure17 = true; }},
+       .set =
+           [](Arguments& a, const std::string& text) {
+             a.figure17 = text.empty() ? Plate::own : Plate::paper;
+           }},
   };
 }
 

@@ -37,14 +37,13 @@ void print_table(const Arguments& arguments, const std::vector<Suggestion>& choi
   for (const Suggestion& choice : choices) {
     const Report& report = choice.report;
     const bool had = choice.failure.empty();
-    rows.push_back({percent(choice.erosion), percent(choice.dilation),
-                    had ? number(*report.options.radius_max, 3) : "-",
-                    had ? number(report.threshold, 4) : "-",
-                    had ? volume(choice.dilated_volume) : "-",
-                    had ? percent(choice.dilated_share) : "-",
-                    !had           ? "cannot be had"
-                    : choice.empty ? "no surface"
-                                   : count(report.counts.components)});
+    rows.push_back(
+        {percent(choice.erosion), percent(choice.dilation),
+         had ? number(*report.options.radius_max, 3) : "-", had ? number(report.threshold, 4) : "-",
+         had ? volume(choice.dilated_volume) : "-", had ? percent(choice.dilated_share) : "-",
+         !had           ? "cannot be had"
+         : choice.empty ? "no surface"
+                        : count(report.counts.components)});
   }
   std::cout << table(rows)
             << "\n"

@@ -170,8 +170,7 @@ std::vector<WeightedDensity> density_in(const Scene& scene, const ForestLevel& l
   const Place::Centres samples = place.own_samples();
   if (samples.points.empty()) return {};
   const std::vector<KernelRun> runs = place.runs_near(place.box_of(place.own()));
-  return weighted(place.density(runs).at(samples.points), samples.weights,
-                  samples.in_solid);
+  return weighted(place.density(runs).at(samples.points), samples.weights, samples.in_solid);
 }
 
 }  // namespace leafhull

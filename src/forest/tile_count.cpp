@@ -43,7 +43,8 @@ Box reached_box(const PlacedTree& tree, const Box& bounds, double reach, double 
 }
 
 void check_tile_count(const Scene& scene, std::span<const LeafSet> models,
-                      std::span<const Options> shapes, double voxel_size, int edge, const std::filesystem::path& folder) {
+                      std::span<const Options> shapes, double voxel_size, int edge,
+                      const std::filesystem::path& folder) {
   const double side = edge * voxel_size;
   double tiles = 0;
   Box all;

@@ -20,8 +20,9 @@ Box reached_box(const PlacedTree& tree, const Box& bounds, double reach, double 
 /// @param edge cells along a tile.
 /// @throws Error usage: voxels so small that there are more tiles than the file system of `folder`
 ///         can hold, or more voxels than leafhull can count.
-void check_tile_count(const Scene& scene, std::span<const LeafSet> models, std::span<const Options> shapes,
-                      double voxel_size, int edge, const std::filesystem::path& folder);
+void check_tile_count(const Scene& scene, std::span<const LeafSet> models,
+                      std::span<const Options> shapes, double voxel_size, int edge,
+                      const std::filesystem::path& folder);
 
 /// @throws Error usage, as above.
 void check_room_for_tiles(double tiles, double voxel_size, const std::filesystem::path& folder);

@@ -33,7 +33,7 @@ struct LeafSheet {
   std::uint32_t chart = 0;
   Vec3f normal, major;
   float radius_major = 0, radius_minor = 0;  ///< R_u, R_v, model units
-  bool piece = false;  ///< a triangle of a curved surface, whose ellipse is no leaf's
+  bool piece = false;       ///< a triangle of a curved surface, whose ellipse is no leaf's
   std::int32_t solid = -1;  ///< which it is of; -1: of none
 
   Vec3d at(Vec2d p) const { return origin + across * p.x + along * p.y; }
@@ -44,8 +44,8 @@ struct LeafSheets {
   std::vector<LeafChart> charts;
   std::vector<LeafSheet> sheets;
   std::vector<LeafSolid> solids;  ///< with a volume and visible area
-  std::size_t invisible = 0;  ///< leaves that have no visible area
-  double area = 0;            ///< of all sheets
+  std::size_t invisible = 0;      ///< leaves that have no visible area
+  double area = 0;                ///< of all sheets
 };
 
 /// Takes leaves one by one.

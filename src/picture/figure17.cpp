@@ -20,12 +20,14 @@ namespace leafhull {
 namespace {
 
 struct Row {
-  Style style;
+  Style own, paper;
   const char* caption;
+  Style style(Plate plate) const { return plate == Plate::own ? own : paper; }
 };
-constexpr std::array<Row, 3> kRows{{{Style::paper_thin, "(a) Thin abstract shape."},
-                                    {Style::paper_fat, "(b) Fat abstract shape."},
-                                    {Style::paper_previous, "(c) The previous method."}}};
+constexpr std::array<Row, 3> kRows{
+    {{Style::thin, Style::paper_thin, "(a) Thin abstract shape."},
+     {Style::fat, Style::paper_fat, "(b) Fat abstract shape."},
+     {Style::previous, Style::paper_previous, "(c) The previous method."}}};
 
 /// With one decimal, as the paper prints it, or as many as it takes.
 std::string decimal(double value) {
@@ -39,6 +41,10 @@ std::string parameters(const Report& report) {
   const Options& options = report.options;
   const bool crown = options.radius_unit == RadiusUnit::crown;
   const double radius = crown ? *options.radius_max : report.radius_max_model;
+  if (options.coverage) {
+    const std::string outside = decimal(100 * (1 - report.covered)) + "% of the leaf area outside";
+    return "(R_max = " + decimal(radius) + ", " + outside + ")";
+  }
   if (options.method == Method::isotropic) {
     return "(R_i = " + decimal(radius) + ", T = " + decimal(report.threshold) + ")";
   }
@@ -78,17 +84,18 @@ bool fits_a_file(int width, int height) {
   return line * down <= std::numeric_limits<int>::max();
 }
 
-Options options_of(const Row& row, Options options) {
-  options.style = row.style;
+Options options_of(const Row& row, Plate plate, Options options) {
+  options.style = row.style(plate);
   options.method.reset();
   return options;
 }
 
 /// What holds the leaves in every row, and the wood.
-Frame frame_of_rows(const TreeModel& tree, const LeafSet& leaves, const Options& options) {
+Frame frame_of_rows(const TreeModel& tree, const LeafSet& leaves, Plate plate,
+                    const Options& options) {
   double radius = 0;
   for (const Row& row : kRows) {
-    const Options resolved = resolve(options_of(row, options));
+    const Options resolved = resolve(options_of(row, plate, options));
     radius = std::max(radius, radius_max_in_model_units(leaves, resolved));
   }
   Frame frame = frame_of(leaves, radius);
@@ -125,17 +132,17 @@ void check_figure17(const PictureOptions& picture, const DeviceInfo* device) {
 }
 
 Picture figure17(const std::shared_ptr<const TreeModel>& tree, const LeafSet& leaves,
-                 const Options& options, Surfacing surfacing, const PictureOptions& asked,
-                 Device& device, const Progress& progress) {
+                 const Options& options, Plate plate, Surfacing surfacing,
+                 const PictureOptions& asked, Device& device, const Progress& progress) {
   check_figure17(asked, &device.info());
-  const Frame frame = frame_of_rows(*tree, leaves, options);
+  const Frame frame = frame_of_rows(*tree, leaves, plate, options);
   PictureOptions picture = asked;
   Artist artist(device);
   std::vector<LabelledPicture> rows;
   for (const Row& row : kRows) {
     const auto tell = [&](std::string_view stage, double share) {
       const double done = (static_cast<double>(rows.size()) + share) / kRows.size();
-      if (progress) progress(std::string(name(row.style)) + ": " + std::string(stage), done);
+      if (progress) progress(std::string(name(row.style(plate))) + ": " + std::string(stage), done);
     };
     // A row is a surface and two pictures of it.
     const auto part = [&](int before) {
@@ -144,7 +151,7 @@ Picture figure17(const std::shared_ptr<const TreeModel>& tree, const LeafSet& le
       };
     };
     const Subject subject = tree_subject(
-        tree, leaves, options_of(row, options), surfacing, device,
+        tree, leaves, options_of(row, plate, options), surfacing, device,
         [&](std::string_view stage, double) { tell(stage, 0); }, frame);
     picture.look = Look::phong;
     const Picture phong = artist.draw(subject, picture, part(1)).picture;

@@ -11,9 +11,9 @@ inline constexpr double kSmallestRadiusMax = 0.75, kLargestRadiusMax = 16;
 
 /// A radius and the dilation that it gives.
 struct RadiusFound {
-  double radius = 0;      ///< R_max, crown units
-  double dilation = 0;    ///< there
-  bool reached = false;   ///< it is what was asked for; if not, it is the nearest that there is
+  double radius = 0;     ///< R_max, crown units
+  double dilation = 0;   ///< there
+  bool reached = false;  ///< it is what was asked for; if not, it is the nearest that there is
 };
 
 /// R_max such that the dilation is `wanted`, within 0.004, or within 0.01 where the lattice allows

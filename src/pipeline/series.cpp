@@ -40,8 +40,8 @@ std::vector<std::vector<Entry>> groups_of(const LeafSet& leaves, std::span<const
                    [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<std::vector<Entry>> groups;
   for (std::size_t i = 0; i < entries.size(); ++i) {
-    const bool is_new = i == 0 || is_alone(entries[i].second) ||
-                        is_alone(groups.back().front()) || entries[i].first != entries[i - 1].first;
+    const bool is_new = i == 0 || is_alone(entries[i].second) || is_alone(groups.back().front()) ||
+                        entries[i].first != entries[i - 1].first;
     if (is_new) groups.emplace_back();
     groups.back().push_back(std::move(entries[i].second));
   }

@@ -83,8 +83,8 @@ double threshold_for(const Options& options, std::span<const float> density,
 }
 
 double share_below(std::span<const float> density, double threshold) {
-  const auto below = std::ranges::count_if(
-      density, [&](float n) { return static_cast<double>(n) < threshold; });
+  const auto below =
+      std::ranges::count_if(density, [&](float n) { return static_cast<double>(n) < threshold; });
   return static_cast<double>(below) / static_cast<double>(density.size());
 }
 
@@ -93,8 +93,7 @@ constexpr double kSliderError = 0.01;
 
 /// T that leaves the share `erosion` below it, for what the options ask.
 /// @throws Error usage: no T does, or only one that tears a sheet.
-double threshold_for_erosion(const Options& options, double erosion,
-                             std::span<const float> density,
+double threshold_for_erosion(const Options& options, double erosion, std::span<const float> density,
                              const std::vector<bool>& in_solid) {
   const double threshold = threshold_for_coverage(density, 1 - erosion);
   char text[200];
@@ -269,8 +268,8 @@ Stages::Surface Stages::surface(Report& prepared, Mesher mesher) {
 }
 
 /// Whether a surface, polygonise() having told its pieces, has the erosion that is asked for. If
-/// not, sets another T, and with a dilation another R_max: beside what T leaves out there are pieces
-/// that are dropped, and what the lattice does not see.
+/// not, sets another T, and with a dilation another R_max: beside what T leaves out there are
+/// pieces that are dropped, and what the lattice does not see.
 bool Stages::is_eroded(const Field& field, bool is_last, Report& report) {
   constexpr double kLeast = 1e-3;  // of the leaves, below T
   if (!report.options.erosion) return true;
@@ -430,10 +429,10 @@ double Stages::dilation(const Report& prepared) {
   dilation_.update({kernels_key(prepared), prepared.threshold, *options.hollows}, [&] {
     const Lattice lattice = Lattice::near(leaves_.crown.low, dilation_voxel(leaves_, prepared));
     DensityFunction density(device_, kernels_.value, hash_.value, lattice, options.falloff);
-    auto sampled = density.sample_band({prepared.threshold}, 1, false, Lists::forget, [](double) {});
+    auto sampled =
+        density.sample_band({prepared.threshold}, 1, false, Lists::forget, [](double) {});
     const bool fill = options.hollows == Hollows::fill;
-    const Field field =
-        fill ? fill_hollows(std::move(sampled.field)) : std::move(sampled.field);
+    const Field field = fill ? fill_hollows(std::move(sampled.field)) : std::move(sampled.field);
     return dilated_share(metrics_of(field, lattice, prepared));
   });
   return dilation_.value;

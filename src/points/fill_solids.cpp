@@ -104,7 +104,8 @@ Key cell_of_sample(std::int32_t x, std::int32_t y, std::int32_t z) {
   return {x >> 2, y >> 2, z >> 2};
 }
 
-/// The cells of the world's lattice that a solid meets. Along a line every second crossing leaves it.
+/// The cells of the world's lattice that a solid meets. Along a line every second crossing leaves
+/// it.
 Cells cells_of(const LeafSolid& solid, double step) {
   std::vector<Crossing> crossings;
   for (const Triangle& triangle : solid.triangles) cross_triangle(triangle, step, crossings);

@@ -13,7 +13,8 @@ struct LeafPoints {
   /// Places that stand for equal shares of the leaves: their vertices, or even samples of their
   /// visible area, those of strays left out. A coverage is a share of these.
   std::vector<Vec3d> samples;
-  std::vector<bool> in_solid;  ///< of each sample, whether it lies on a solid that is filled; or none
+  std::vector<bool>
+      in_solid;     ///< of each sample, whether it lies on a solid that is filled; or none
   double area = 0;  ///< of all points, model units squared; 0 where they are vertices
 };
 

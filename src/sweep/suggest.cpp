@@ -45,9 +45,7 @@ struct DilationRange {
     const double empty = std::pow(1 - least, 1 - share) * std::pow(1 - most, share);
     return std::round(1000 * (1 - empty)) / 1000;
   }
-  bool tells_apart() const {
-    return (1 - least) > kClearlyLarger * kClearlyLarger * (1 - most);
-  }
+  bool tells_apart() const { return (1 - least) > kClearlyLarger * kClearlyLarger * (1 - most); }
 };
 
 /// What dilations go with each erosion.

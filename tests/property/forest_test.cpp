@@ -135,8 +135,7 @@ ForestLevel level_of(const Scene& scene, int number = 0, const Options& resolved
   const std::vector<Options> shapes(models.size(), resolved);
   const ForestLevel finest = prepare_level(0, models, uses, shapes, 0.2, nullptr, device());
   // Its `least` stays 0: small pieces over seams are known once all tiles are.
-  return number == 0 ? finest
-                     : prepare_level(number, models, uses, shapes, 0.2, &finest, device());
+  return number == 0 ? finest : prepare_level(number, models, uses, shapes, 0.2, &finest, device());
 }
 
 void expect_same(const Surface& a, const Surface& b) {

@@ -124,7 +124,8 @@ Expected quantile(const std::vector<double>& densities, const std::vector<double
   return {value, kRounding * value + std::max(value - below, above - value)};
 }
 
-/// Eqs. (9), (10), or the shares of the leaves. The tolerances follow from each N_iso being known to kRounding.
+/// Eqs. (9), (10), or the shares of the leaves. The tolerances follow from each N_iso being known
+/// to kRounding.
 Band check_statistics(const Extraction& extraction, const std::vector<double>& densities,
                       Table& table) {
   const auto& stored = extraction.kernels.property("density");

@@ -130,7 +130,8 @@ TEST(Control, LeafPointsCountByTheirArea) {
   const std::vector<LeafPoint> leaves{leaf(1, 1, 3), leaf(1, 1, 1)};
   Options options;
   options.points = PointSource::area;
-  const DensityStatistics s = density_statistics(leaves, std::vector<float>{1, 5}, kCrown, resolve(options));
+  const DensityStatistics s =
+      density_statistics(leaves, std::vector<float>{1, 5}, kCrown, resolve(options));
   EXPECT_DOUBLE_EQ(s.mean, 2);
   EXPECT_DOUBLE_EQ(s.variance, 3);
   // A ripple is no spread.
@@ -189,7 +190,8 @@ TEST(Control, ABandUpsideDownOnThisTree) {
 TEST(Control, StraysCountForNothing) {
   std::vector<LeafPoint> leaves(3, leaf(1, 1));
   leaves[1].position = {0, 5, 0};
-  const DensityStatistics s = density_statistics(leaves, std::vector<float>{1, 100, 3}, kCrown, resolve({}));
+  const DensityStatistics s =
+      density_statistics(leaves, std::vector<float>{1, 100, 3}, kCrown, resolve({}));
   EXPECT_DOUBLE_EQ(s.mean, 2);
   EXPECT_DOUBLE_EQ(s.variance, 1);
 }

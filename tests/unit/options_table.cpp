@@ -19,13 +19,35 @@ const OptionRow& row(std::string_view name) {
 }
 
 TEST(OptionTable, HasEveryOptionOnce) {
-  const std::set<std::string_view> expected = {
-      "leaves",    "ellipse",       "leaf-scale", "style",       "method",
-      "threshold", "coverage",      "radius-max", "radius-unit", "threshold-percent",
-      "flatness",  "falloff",       "spread",     "density",     "band-low",
-      "band-high", "min-component", "preset",     "resolution",  "voxel-size",
-      "dense",     "snap",          "mesher",     "adaptivity",  "hollows",
-      "points",    "point-spacing", "band-low-percent", "band-high-percent"};
+  const std::set<std::string_view> expected = {"leaves",
+                                               "ellipse",
+                                               "leaf-scale",
+                                               "style",
+                                               "method",
+                                               "threshold",
+                                               "coverage",
+                                               "radius-max",
+                                               "radius-unit",
+                                               "threshold-percent",
+                                               "flatness",
+                                               "falloff",
+                                               "spread",
+                                               "density",
+                                               "band-low",
+                                               "band-high",
+                                               "min-component",
+                                               "preset",
+                                               "resolution",
+                                               "voxel-size",
+                                               "dense",
+                                               "snap",
+                                               "mesher",
+                                               "adaptivity",
+                                               "hollows",
+                                               "points",
+                                               "point-spacing",
+                                               "band-low-percent",
+                                               "band-high-percent"};
   std::set<std::string_view> found;
   for (const OptionRow& row : option_table()) {
     EXPECT_TRUE(found.insert(row.name).second) << row.name << " stands twice";
