@@ -49,6 +49,10 @@ class Extraction:
         self.pieces, self.dropped = counts["components"], counts["dropped_components"]
 
 
+def extractions(leafhull, tree, options):
+    return {s: Extraction(leafhull, tree, [*options, "--style", s]) for s in STYLES}
+
+
 def faults(by_style):
     thin, fat, previous = by_style["thin"], by_style["fat"], by_style["previous"]
     of_fat, of_previous = thin.volume / fat.volume, thin.volume / previous.volume
@@ -80,10 +84,7 @@ def main():
         options = ["--preset", arguments.preset, *words[at + 1 :]]
         if tree.stem in globs:
             options += ["--leaves", globs[tree.stem]]
-        by_style = {
-            style: Extraction(arguments.leafhull, tree, [*options, "--style", style])
-            for style in STYLES
-        }
+        by_style = extractions(arguments.leafhull, tree, options)
         fat = by_style["fat"].volume
         print(tree.name)
         for style, e in by_style.items():

@@ -3,8 +3,9 @@ import re
 
 from command import CommandTest
 
-FLAGS = """--leaves --ellipse --leaf-scale --style --method --threshold --coverage --radius-max
---radius-unit --flatness --falloff --spread --density --band-low --band-high --min-component
+FLAGS = """--leaves --ellipse --leaf-scale --style --method --threshold --coverage --erosion --dilation --radius-max
+--radius-unit --flatness --falloff --spread --density --band-low --band-low-percent --band-high
+--band-high-percent --min-component
 --hollows --preset --resolution --voxel-size --dense --no-snap --mesher --adaptivity --output
 --save-kernels --save-field --report --device --variant --threads --quiet --verbose --help --version""".split()
 

@@ -259,6 +259,14 @@ class Plate(Render):
         small = ("--figure17", "--size", "32x32", *MESH)
         self.assertNotEqual(self.bytes(*small, "--threshold", "60%"), self.bytes(*small))
 
+    def test_the_papers_values(self):
+        small = ("--size", "32x32", *MESH)
+        paper = self.bytes("--figure17", "paper", *small)
+        self.assertNotEqual(paper, self.bytes("--figure17", *small))
+        own = self.bytes("--figure17", "paper", *small, "--points", "vertices", "--threshold", "1.5")
+        self.assertNotEqual(paper, own)
+        self.refuse(["'pape'"], "--figure17", "pape")
+
     def test_a_sheet_past_the_largest_file(self):
         self.refuse(["sheet", "PNG", "--size"], "--figure17", "--size", "16384x16384")
 

@@ -3,6 +3,7 @@ import json
 import shlex
 import struct
 
+import styles
 from command import ASH, CommandTest
 
 COARSE = ("--preset", "paper-32")
@@ -22,21 +23,43 @@ class Suggest(CommandTest):
     def test_every_choice_is_what_its_command_gives(self):
         page = self.suggest()
         choices = page["suggestions"]
-        pairs = [(choice["coverage"], choice["radius_max"]) for choice in choices]
-        self.assertEqual(pairs, [(c, r) for c in (0.85, 0.92, 0.98) for r in (1.5, 2.5, 4)])
+        self.assertEqual(len(choices), 9)
+        self.assertEqual([choice["failure"] for choice in choices], 9 * [None])
         for choice in choices:
             single = json.loads(self.succeed(*report_of(choice["command"])).stdout)
             parameters = single["parameters"]
             self.assertEqual(parameters["method"], "controlled")
             self.assertEqual(parameters["resolution"], 32)
-            self.assertEqual(parameters["coverage"], choice["coverage"])
+            self.assertEqual(parameters["erosion"], choice["erosion"])
+            self.assertEqual(parameters["dilation"], choice["dilation"])
+            self.assertEqual(parameters["radius_max"], choice["radius_max"])
             self.assertEqual(parameters["threshold"], choice["threshold"])
+            self.assertEqual(single["metrics"]["erosion"], choice["erosion_reached"])
+            self.assertEqual(single["metrics"]["dilation"], choice["dilation_reached"])
+            for slider in ("erosion", "dilation"):
+                self.assertAlmostEqual(choice[slider], choice[f"{slider}_reached"], delta=0.01)
             self.assertEqual(single["counts"]["components"], choice["components"])
             voxels = single["metrics"]["dilated_voxels"]
             self.assertEqual(voxels, choice["dilated_voxels"])
             self.assertAlmostEqual(
                 choice["dilated_volume"] / (voxels * parameters["voxel_size"] ** 3), 1
             )
+
+    def test_neighbours_differ(self):
+        choices = self.suggest()["suggestions"]
+        shapes = [(self.volume(c["command"]), c["erosion_reached"]) for c in choices]
+        for i in range(9):
+            for j in [*([i + 1] if i % 3 < 2 else []), *([i + 3] if i < 6 else [])]:
+                with self.subTest(first=i, second=j):
+                    small, large = sorted((shapes[i][0], shapes[j][0]))
+                    outside = abs(shapes[i][1] - shapes[j][1])
+                    self.assertTrue(large > 1.1 * small or outside > 0.04)
+
+    def volume(self, command):
+        words = shlex.split(command)
+        shape = self.out / "shape.stl"
+        self.succeed(*words[1 : words.index("-o")], "-o", shape)
+        return styles.volume(shape)
 
     def test_the_share_is_of_the_bounding_box(self):
         box = json.loads(self.succeed("inspect", ASH, "--json").stdout)["leaves"]["bounds"]
@@ -50,8 +73,8 @@ class Suggest(CommandTest):
     def test_table_and_commands(self):
         result = self.succeed("suggest", self.tree, *COARSE, cwd=self.out)
         lines = result.stdout.splitlines()
-        self.assertEqual(lines[0].split()[:3], ["coverage", "R_max", "T"])
-        self.assertEqual(len([line for line in lines if line.startswith("    0.")]), 9)
+        self.assertEqual(lines[0].split()[:3], ["erosion", "dilation", "R_max"])
+        self.assertEqual(len([line for line in lines[1:10] if line.split()[0].endswith("%")]), 9)
         commands = [line for line in lines if line.startswith("  leafhull extract ")]
         self.assertEqual(len(commands), 9)
         self.succeed(*shlex.split(commands[4])[1:], cwd=self.out)
@@ -84,6 +107,7 @@ class Suggest(CommandTest):
         for words, *flags in (
             (["--threshold", "unknown"], "--threshold", "2"),
             (["--coverage", "unknown"], "--coverage", "0.9"),
+            (["--erosion", "unknown"], "--erosion", "0.1"),
             ([".png"], "-o", self.out / "strip.jpg"),
             (["--preset"], "--preset", "huge"),
         ):

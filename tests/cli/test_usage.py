@@ -54,11 +54,12 @@ class Usage(CommandTest):
     def test_contradictions(self):
         thresholds = [("--threshold", "2"), ("--threshold-percent", "40"), ("--coverage", "0.9")]
         sizes = [("--preset", "draft"), ("--resolution", "48"), ("--voxel-size", "0.1")]
-        for three in (thresholds, sizes):
-            for first in three:
-                for second in three:
+        thresholds.append(("--erosion", "0.1"))
+        for choices, words in ((thresholds, "one of the four"), (sizes, "one of the three")):
+            for first in choices:
+                for second in choices:
                     if first != second:
-                        self.refuse(["contradict", "one of the three"], *first, *second)
+                        self.refuse(["contradict", words], *first, *second)
         self.refuse(["contradict"], "--threshold", "40%", "--coverage", "0.9")
         self.refuse(["--threshold", "more than once"], "--threshold", "2", "--threshold", "40%")
         self.refuse(["--band-high 1", "--band-low 2"], "--band-low", "2", "--band-high", "1")

@@ -19,7 +19,7 @@ LeafPoint leaf(float major, float minor, double area = 0) {
 const Box kCrown{{-1, -1, -1}, {1, 1, 1}};
 
 /// The paper's band where the options have none; this room knows no styles.
-Options resolve(Options options) {
+Options with_band(Options options) {
   if (!options.band_low && !options.band_low_percent) options.band_low = 0;
   if (!options.band_high && !options.band_high_percent) options.band_high = 2;
   return options;
@@ -36,7 +36,7 @@ TEST(Control, StatisticsOfEquations9And10) {
   const std::vector<LeafPoint> leaves(4, leaf(1, 1));
   const std::vector<float> density{1, 2, 3, 6};
   Options options;
-  const DensityStatistics s = density_statistics(leaves, density, kCrown, resolve(options));
+  const DensityStatistics s = density_statistics(leaves, density, kCrown, with_band(options));
   EXPECT_DOUBLE_EQ(s.mean, 3);
   EXPECT_DOUBLE_EQ(s.variance, 3.5);
   EXPECT_DOUBLE_EQ(s.p1, 3);
@@ -44,7 +44,7 @@ TEST(Control, StatisticsOfEquations9And10) {
 
   options.spread = Spread::variance;
   options.band_low = -1;
-  const DensityStatistics v = density_statistics(leaves, density, kCrown, resolve(options));
+  const DensityStatistics v = density_statistics(leaves, density, kCrown, with_band(options));
   EXPECT_DOUBLE_EQ(v.p1, 3 - 3.5);
   EXPECT_DOUBLE_EQ(v.p2, 3 + 2 * 3.5);
 }
@@ -131,12 +131,12 @@ TEST(Control, LeafPointsCountByTheirArea) {
   Options options;
   options.points = PointSource::area;
   const DensityStatistics s =
-      density_statistics(leaves, std::vector<float>{1, 5}, kCrown, resolve(options));
+      density_statistics(leaves, std::vector<float>{1, 5}, kCrown, with_band(options));
   EXPECT_DOUBLE_EQ(s.mean, 2);
   EXPECT_DOUBLE_EQ(s.variance, 3);
   // A ripple is no spread.
   const DensityStatistics even =
-      density_statistics(leaves, std::vector<float>{1.01f, 0.97f}, kCrown, resolve(options));
+      density_statistics(leaves, std::vector<float>{1.01f, 0.97f}, kCrown, with_band(options));
   EXPECT_NEAR(even.p2, 1.3 * even.mean, 1e-9);
 }
 
@@ -148,7 +148,7 @@ TEST(Control, TheBandByShares) {
     options.style = Style::paper_thin;
     options.band_low_percent = low;
     options.band_high_percent = high;
-    return density_statistics(leaves, density, kCrown, resolve(options));
+    return density_statistics(leaves, density, kCrown, with_band(options));
   };
   EXPECT_EQ(band_of(30, 70).p1, 3);
   EXPECT_EQ(band_of(30, 70).p2, 7);
@@ -165,7 +165,7 @@ TEST(Control, TheBandByShareOfAreaIsNoNarrowerThanARipple) {
   options.band_low_percent = 30;
   options.band_high_percent = 75;
   const DensityStatistics s =
-      density_statistics(leaves, std::vector<float>{1, 2, 4}, kCrown, resolve(options));
+      density_statistics(leaves, std::vector<float>{1, 2, 4}, kCrown, with_band(options));
   EXPECT_DOUBLE_EQ(s.mean, 2.25);
   EXPECT_DOUBLE_EQ(s.p1, 2 - 0.15 * s.mean) << "both shares end at one density, 2";
   EXPECT_DOUBLE_EQ(s.p2, 2 + 0.15 * s.mean);
@@ -178,7 +178,7 @@ TEST(Control, ABandUpsideDownOnThisTree) {
   options.band_low = 0;
   options.band_high_percent = 10;
   try {
-    (void)density_statistics(leaves, std::vector<float>{1, 2, 3}, kCrown, resolve(options));
+    (void)density_statistics(leaves, std::vector<float>{1, 2, 3}, kCrown, with_band(options));
     FAIL();
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ErrorCode::usage);
@@ -191,7 +191,7 @@ TEST(Control, StraysCountForNothing) {
   std::vector<LeafPoint> leaves(3, leaf(1, 1));
   leaves[1].position = {0, 5, 0};
   const DensityStatistics s =
-      density_statistics(leaves, std::vector<float>{1, 100, 3}, kCrown, resolve({}));
+      density_statistics(leaves, std::vector<float>{1, 100, 3}, kCrown, with_band({}));
   EXPECT_DOUBLE_EQ(s.mean, 2);
   EXPECT_DOUBLE_EQ(s.variance, 1);
 }
