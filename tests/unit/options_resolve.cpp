@@ -3,7 +3,9 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
+#include <utility>
 
 #include "leafhull/error.h"
 #include "leafhull/options.h"
@@ -137,6 +139,35 @@ TEST(Styles, AnyThresholdReplacesTheStyles) {
   EXPECT_FALSE(resolve(options).threshold);
 }
 
+TEST(Styles, AnErosionReplacesTheirThreshold) {
+  for (std::size_t i = 0; i < names(Style{}).size(); ++i) {
+    SCOPED_TRACE(names(Style{})[i]);
+    Options options;
+    options.style = Style(i);
+    options.erosion = 0.1;
+    EXPECT_EQ(resolve(options).erosion, 0.1);
+    EXPECT_FALSE(resolve(options).threshold || resolve(options).threshold_percent);
+    EXPECT_FALSE(resolve(options).coverage);
+    EXPECT_EQ(resolve(options).radius_max, styled(Style(i)).radius_max);
+  }
+}
+
+TEST(Styles, ADilationLeavesTheRadiusOpenAndKeepsTheCoverage) {
+  for (const Style style : {Style::painterly, Style::thin, Style::fat, Style::previous}) {
+    SCOPED_TRACE(name(style));
+    Options options;
+    options.style = style;
+    options.radius_unit = RadiusUnit::leaf;
+    options.dilation = 0.4;
+    const Options resolved = resolve(options);
+    EXPECT_EQ(resolved.dilation, 0.4);
+    EXPECT_FALSE(resolved.radius_max);
+    EXPECT_EQ(resolved.radius_unit, RadiusUnit::crown) << "what is found is in crown units";
+    EXPECT_EQ(resolved.coverage, styled(style).coverage);
+    EXPECT_FALSE(resolved.threshold || resolved.erosion);
+  }
+}
+
 TEST(Resolution, StandardWhereNothingIsAsked) {
   const Options options = resolve({});
   EXPECT_EQ(options.preset, Preset::standard);
@@ -172,6 +203,29 @@ TEST(Resolve, IsIdempotent) {
   EXPECT_EQ(twice.method, once.method);
 }
 
+TEST(Resolve, IsIdempotentWithAnErosionAndADilation) {
+  for (const Style style : {Style::painterly, Style::paper_thin}) {
+    for (const auto& [erosion, dilation] :
+         {std::pair<std::optional<double>, std::optional<double>>{0.1, 0.4},
+          {0.1, {}},
+          {{}, 0.4}}) {
+      if (style == Style::paper_thin && !erosion) continue;
+      Options options;
+      options.style = style;
+      options.erosion = erosion;
+      options.dilation = dilation;
+      const Options once = resolve(options), twice = resolve(once);
+      EXPECT_EQ(twice.erosion, erosion);
+      EXPECT_EQ(twice.dilation, dilation);
+      EXPECT_EQ(twice.coverage, once.coverage);
+      EXPECT_EQ(twice.threshold, once.threshold);
+      EXPECT_EQ(twice.radius_max, once.radius_max);
+      EXPECT_EQ(twice.radius_max.has_value(), !dilation);
+      EXPECT_EQ(twice.radius_unit, once.radius_unit);
+    }
+  }
+}
+
 TEST(Contradictions, TwoThresholds) {
   Options both;
   both.threshold = 2;
@@ -187,6 +241,57 @@ TEST(Contradictions, TwoThresholds) {
   both.threshold_percent = 40;
   both.coverage = 0.9;
   expect_words(refusal(both), {"--threshold X%", "--coverage"});
+}
+
+TEST(Contradictions, AnErosionAndAThreshold) {
+  for (const auto member : {&Options::threshold, &Options::threshold_percent, &Options::coverage}) {
+    Options both;
+    both.erosion = 0.1;
+    both.*member = 0.5;
+    expect_words(refusal(both), {"--erosion", "--threshold X", "--coverage"});
+  }
+}
+
+TEST(Contradictions, ADilationAndWhatItFinds) {
+  Options both;
+  both.dilation = 0.4;
+  both.threshold = 2;
+  expect_words(refusal(both), {"--dilation", "--threshold", "--erosion", "--coverage"});
+
+  both = {};
+  both.dilation = 0.4;
+  both.threshold_percent = 40;
+  expect_words(refusal(both), {"--dilation", "--threshold", "--erosion", "--coverage"});
+
+  both = {};
+  both.dilation = 0.4;
+  both.radius_max = 3;
+  expect_words(refusal(both), {"--dilation", "--radius-max"});
+
+  both = {};
+  both.dilation = 0.4;
+  both.coverage = 0.9;
+  EXPECT_NO_THROW(resolve(both));
+}
+
+TEST(Contradictions, ADilationAndAThresholdOfTheStyle) {
+  for (const Style style : {Style::paper_thin, Style::paper_fat, Style::paper_previous}) {
+    Options options;
+    options.style = style;
+    options.dilation = 0.4;
+    expect_words(refusal(options),
+                 {"--style " + std::string(name(style)), "--dilation", "--erosion", "--coverage"});
+    options.erosion = 0.1;
+    EXPECT_NO_THROW(resolve(options));
+    options.erosion.reset(), options.coverage = 0.9;
+    EXPECT_NO_THROW(resolve(options));
+  }
+  Options at_vertices;
+  at_vertices.style = Style::thin;
+  at_vertices.dilation = 0.4;
+  EXPECT_NO_THROW(resolve(at_vertices));
+  at_vertices.points = PointSource::vertices;
+  expect_words(refusal(at_vertices), {"--style thin", "--erosion"});
 }
 
 TEST(Contradictions, TwoResolutions) {
@@ -223,6 +328,41 @@ TEST(Contradictions, BandUpsideDown) {
   EXPECT_NO_THROW(resolve(options)) << "p1 = p2 is a step";
 }
 
+TEST(Contradictions, BandUpsideDownInPercent) {
+  Options options;
+  options.band_low_percent = 60;
+  options.band_high_percent = 50;
+  expect_words(refusal(options), {"--band-high 50%", "--band-low 60%"});
+  options.band_high_percent = 60;
+  EXPECT_NO_THROW(resolve(options));
+  // A style's own end counts, too.
+  options = {};
+  options.style = Style::thin;
+  options.band_low_percent = 81;
+  expect_words(refusal(options), {"--band-high 80%", "--band-low 81%"});
+}
+
+TEST(Contradictions, AnEndOfTheBandTwice) {
+  Options options;
+  options.band_low = 0;
+  options.band_low_percent = 30;
+  expect_words(refusal(options), {"--band-low X", "--band-low X%"});
+  options = {};
+  options.band_high = 2;
+  options.band_high_percent = 30;
+  expect_words(refusal(options), {"--band-high X", "--band-high X%"});
+  options.band_high.reset();
+  EXPECT_NO_THROW(resolve(options)) << "ends may be of two kinds";
+}
+
+TEST(Ranges, SharesThatWouldBeAllOrNothing) {
+  for (const auto member : {&Options::erosion, &Options::dilation}) {
+    for (const double value : {0.0, 1.0, -0.1, 1.1}) {
+      expect_words(refusal_of(member, std::optional(value)), {"out of range", "(0, 1)"});
+    }
+  }
+}
+
 TEST(Ranges, EveryBoundOfTheTableIsKept) {
   for (const OptionRow& row : option_table()) {
     const auto* number = std::get_if<double Options::*>(&row.member);
@@ -236,11 +376,11 @@ TEST(Ranges, EveryBoundOfTheTableIsKept) {
       return options;
     };
     SCOPED_TRACE(row.name);
-    const double above = std::nextafter(row.high, HUGE_VAL);
+    const double above = row.high_open ? row.high : std::nextafter(row.high, HUGE_VAL);
     const double below = row.low_open ? row.low : std::nextafter(row.low, -HUGE_VAL);
     expect_words(refusal(with(above)), {std::string(row.name), std::string(row.range)});
     expect_words(refusal(with(below)), {std::string(row.name), std::string(row.range)});
-    EXPECT_NO_THROW(resolve(with(row.high)));
+    EXPECT_NO_THROW(resolve(with(row.high_open ? std::nextafter(row.high, 0) : row.high)));
     EXPECT_NO_THROW(resolve(with(row.low_open ? std::nextafter(row.low, 1) : row.low)));
   }
 }
@@ -262,7 +402,7 @@ TEST(Ranges, NotANumberAndInfinityAreRefusedEverywhere) {
       ++checked;
     }
   }
-  EXPECT_EQ(checked, 3 * 12);
+  EXPECT_EQ(checked, 3 * 16);
 }
 
 TEST(Ranges, WholeNumbers) {

@@ -47,7 +47,9 @@ TEST(OptionTable, HasEveryOptionOnce) {
                                                "points",
                                                "point-spacing",
                                                "band-low-percent",
-                                               "band-high-percent"};
+                                               "band-high-percent",
+                                               "erosion",
+                                               "dilation"};
   std::set<std::string_view> found;
   for (const OptionRow& row : option_table()) {
     EXPECT_TRUE(found.insert(row.name).second) << row.name << " stands twice";
