@@ -57,9 +57,9 @@ class Extract(CommandTest):
     def test_styles(self):
         expected = {
             "painterly": ("controlled", 3.5, 0.8, 0.98),
-            "thin": ("controlled", 1.4, 0.7, 0.85),
-            "fat": ("controlled", 5, 1.0, 0.99),
-            "previous": ("isotropic", 2.5, None, 0.95),
+            "thin": ("controlled", 4, 0.7, 0.8),
+            "fat": ("controlled", 7.5, 1.0, 0.99),
+            "previous": ("isotropic", 4, None, 0.96),
             "paper-thin": ("controlled", 1.4, 0.7, None),
             "paper-fat": ("controlled", 1.6, 1.0, None),
             "paper-previous": ("isotropic", 1.5, None, None),
@@ -144,7 +144,12 @@ class Extract(CommandTest):
             glb.tree(moved, triangles),
         ):
             far, _, far_report = self.extract(self.input("far.glb", data), *flags)
-            self.assertEqual(near_report["metrics"], far_report["metrics"])
+            near_metrics, far_metrics = dict(near_report["metrics"]), far_report["metrics"]
+            # A dilation is counted on a lattice of its own, which the shift does not meet.
+            self.assertAlmostEqual(
+                near_metrics.pop("dilation"), far_metrics.pop("dilation"), delta=0.005
+            )
+            self.assertEqual(near_metrics, far_metrics)
             self.assertEqual(near_report["counts"], far_report["counts"])
             for a, b in zip(glb.vertices(near), glb.vertices(far), strict=True):
                 for axis, offset in enumerate((shift, 0, 0)):

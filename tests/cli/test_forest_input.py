@@ -61,7 +61,7 @@ class BadScenes(ForestTest):
         scene = self.stand(*["ash.glb,0,0,0"] * 3, "ash.glb,30,0,0")
         single = self.folder / "all.ply"
         single.write_text("mine")
-        flags = ("--style", "thin", "--coverage", "0.2", "--control-scope", "scene")
+        flags = ("--radius-max", "1.4", "--coverage", "0.2", "--control-scope", "scene")
         self.refuse(6, ["empty", "--min-component"], scene, *COARSE, *flags,
                     "--min-component", "1", "--single", single)  # fmt: skip
         self.assertEqual(single.read_text(), "mine")

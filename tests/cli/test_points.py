@@ -58,9 +58,9 @@ class Points(CommandTest):
     def test_styles(self):
         by_area = {
             "painterly": ("controlled", 3.5, 0.98),
-            "thin": ("controlled", 1.4, 0.85),
-            "fat": ("controlled", 5, 0.99),
-            "previous": ("isotropic", 2.5, 0.95),
+            "thin": ("controlled", 4, 0.8),
+            "fat": ("controlled", 7.5, 0.99),
+            "previous": ("isotropic", 4, 0.96),
         }
         for style, (method, radius, coverage) in by_area.items():
             parameters = self.report(self.tree, "--style", style)["parameters"]

@@ -122,18 +122,21 @@ inline TreeModel closed_sphere() {
   return tree_of({fine});
 }
 
-/// A closed crown of six faces, 3 x 2 x 2.
-inline TreeModel closed_box() {
+/// A crown of six faces, 3 x 2 x 2, each `part` as wide as it would have to be to close it.
+inline TreeModel box_of_cards(double part) {
   Primitive p;
   const Vec3d half[] = {{1.5, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   for (int axis = 0; axis < 3; ++axis) {
-    const Vec3d n = half[axis], u = half[(axis + 1) % 3], v = half[(axis + 2) % 3];
+    const Vec3d n = half[axis], u = half[(axis + 1) % 3] * part, v = half[(axis + 2) % 3] * part;
     add_card(p, n, u, v);
     add_card(p, -n, v, u);
   }
   p.uvs.clear();
   return tree_of({p});
 }
+
+/// A closed crown of six faces.
+inline TreeModel closed_box() { return box_of_cards(1); }
 
 /// Half a cylinder of radius 1.5, welded: flat quads along its axis, visible in discs.
 inline TreeModel curved_sheet() {

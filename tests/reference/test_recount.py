@@ -271,6 +271,17 @@ class ThreeInARow(RecountTest):
         self.report["parameters"]["threshold_percent"] = percent + 0.1
         self.assert_differs("threshold by percent", self.kernels, self.report)
 
+    def test_band_by_shares(self):
+        parameters, density = self.report["parameters"], self.report["density"]
+        for end, share, value in (("low", 0, min), ("high", 100, max)):
+            parameters[f"band_{end}"] = None
+            parameters[f"band_{end}_percent"] = share
+            self.assert_differs("p1" if end == "low" else "p2", self.kernels, self.report)
+            density["p1" if end == "low" else "p2"] = value(k.density for k in self.kernels)
+        rows = self.run_recount(self.kernels, self.report).stdout.splitlines()
+        told = {line[:34].strip() for line in rows if "DIFFERS" not in line}
+        self.assertLessEqual({"p1", "p2"}, told)
+
     def test_density_property(self):
         self.kernels[0].density *= 1.0001
         self.assert_differs("N_iso, largest relative error", self.kernels, self.report)

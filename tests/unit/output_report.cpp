@@ -88,7 +88,8 @@ TEST(Report, CopiesEveryFigure) {
             R"({"mean":0.1,"variance":0.25,"deviation":0.5,"p1":0.3,"p2":0.4})");
   EXPECT_EQ(report["metrics"].dump(),
             R"({"dilated_voxels":11,"inside_voxels":12,"on_voxels":13,)"
-            R"("off_site_exact":14,"off_site_sampled":15,"covered":0.875})");
+            R"("off_site_exact":14,"off_site_sampled":15,"covered":0.875,)"
+            R"("erosion":0.0625,"dilation":0.625})");
   EXPECT_EQ(report["seconds"].dump(), R"({"hash":2.0,"snap_vertices":0.25,"total":2.25})");
 }
 

@@ -53,7 +53,9 @@ Shape sample_shape() {
                     .inside_voxels = 12,
                     .on_voxels = 13,
                     .off_site_exact = 14,
-                    .off_site_sampled = 15};
+                    .off_site_sampled = 15,
+                    .erosion = 0.0625,
+                    .dilation = 0.625};
   report.seconds = {{"hash", 0.5}, {"snap vertices", 0.25}, {"hash", 1.5}, {"total", 2.25}};
   report.peak_memory_bytes = 1 << 20;
   report.warnings = {"one thing"};
