@@ -206,11 +206,12 @@ void warn_of_pieces(std::uint64_t pieces, Report& report) {
 
 [[noreturn]] void refuse_dilation(const RadiusFound& found, const Options& options) {
   char text[200];
-  std::snprintf(text, sizeof text,
-                "a dilation of %.3g cannot be had on this tree: it goes %s to %.3g, with R_max %.3g "
-                "crown units",
-                *options.dilation, found.dilation < *options.dilation ? "up" : "down",
-                found.dilation, found.radius);
+  std::snprintf(
+      text, sizeof text,
+      "a dilation of %.3g cannot be had on this tree: it goes %s to %.3g, with R_max %.3g "
+      "crown units",
+      *options.dilation, found.dilation < *options.dilation ? "up" : "down", found.dilation,
+      found.radius);
   throw Error(ErrorCode::usage, text, "Give that, or another --erosion.");
 }
 

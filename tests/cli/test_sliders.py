@@ -6,6 +6,7 @@ import os
 import pathlib
 import unittest
 
+import glb
 import styles
 from command import ASH, CommandTest
 
@@ -77,8 +78,10 @@ class Sliders(CommandTest):
             (["a dilation of 0.01", "goes down to 0."], "--dilation", "0.01", "--erosion", "0.05"),
         ):
             self.fail_with(2, words, "extract", ASH, "-o", self.shape, "--preset", "draft", *flags)
-        card = ("extract", self.tree, "-o", self.shape, "--erosion", "0.3", "--radius-max", "1")
-        self.fail_with(2, ["sheets of one density", "can"], *card)
+        corners = [(x, y, 0.0) for x in (0.0, 1.0) for y in (0.0, 1.0)]
+        card = self.input("card.glb", glb.tree(corners, [(0, 1, 2), (2, 1, 3)]))
+        words = ["an erosion of 0.3 ", "sheets of one density", "can"]
+        self.fail_with(2, words, "extract", card, "-o", self.shape, "--erosion", "0.3")
 
     def test_usage(self):
         for words, *flags in (

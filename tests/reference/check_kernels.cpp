@@ -103,8 +103,8 @@ struct Expected {
   double value, error;
 };
 
-/// The density that a share of the leaves does not exceed, and how far it is from its neighbours in
-/// rank: rounding may pick one of these.
+/// The density that a share of the leaves does not exceed, and how far it is from those that
+/// rounding may pick instead: its neighbours in rank, where just that share ends at one.
 Expected quantile(const std::vector<double>& densities, const std::vector<double>& share,
                   double percent) {
   std::vector<std::pair<double, double>> ranked;
@@ -114,14 +114,19 @@ Expected quantile(const std::vector<double>& densities, const std::vector<double
     all += share[i];
   }
   std::sort(ranked.begin(), ranked.end());
+  const double wanted = percent / 100 * all;
   std::size_t at = 0;
-  for (double up_to = ranked[0].second; at + 1 < ranked.size() && up_to < percent / 100 * all;) {
+  double before = 0, up_to = ranked[0].second;
+  while (at + 1 < ranked.size() && up_to < wanted) {
+    before = up_to;
     up_to += ranked[++at].second;
   }
-  const double below = ranked[at > 0 ? at - 1 : at].first;
-  const double above = ranked[std::min(at + 1, ranked.size() - 1)].first;
+  const auto is_end = [&](double sum) { return std::abs(sum - wanted) < kRounding * all; };
   const double value = ranked[at].first;
-  return {value, kRounding * value + std::max(value - below, above - value)};
+  double error = kRounding * value;
+  if (at > 0 && is_end(before)) error += value - ranked[at - 1].first;
+  if (at + 1 < ranked.size() && is_end(up_to)) error += ranked[at + 1].first - value;
+  return {value, error};
 }
 
 /// Eqs. (9), (10), or the shares of the leaves. The tolerances follow from each N_iso being known
