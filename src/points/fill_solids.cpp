@@ -20,7 +20,7 @@ namespace {
 /// A surface is filled from this thickness over R_max on.
 constexpr double kThick = 0.5;
 /// A cell's edge over R_max, and samples along it.
-constexpr double kCellOverRadius = 0.36;
+constexpr double kCellOverRadius = 0.28;
 constexpr int kSamplesPerCell = 4;
 constexpr std::uint64_t kSamplesOfCell = kSamplesPerCell * kSamplesPerCell * kSamplesPerCell;
 /// Radii of the points over R_max, to which control caps them, however flat it makes kernels: what

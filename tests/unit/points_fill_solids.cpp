@@ -95,7 +95,7 @@ double layers_at(const std::vector<LeafPoint>& points, Vec3d p, double radius) {
   return n;
 }
 
-double volume_of_cell(double radius) { return std::pow(0.36 * radius, 3); }
+double volume_of_cell(double radius) { return std::pow(0.28 * radius, 3); }
 
 TEST(IsFilled, WhatIsThickerThanHalfOfAKernel) {
   // A plate of volume V and surface S is 2 V / S thick: a third of a cube's edge.
@@ -149,22 +149,22 @@ TEST(Fill, LeavesAHollowEmpty) {
   // Cells that the corners of the hollow lie in may have their middle within.
   for (const LeafPoint& p : points) {
     const auto [x, y, z] = p.position;
-    EXPECT_GT(std::max({std::abs(x), std::abs(y), std::abs(z)}), 1.5 - 0.36 * 0.5);
+    EXPECT_GT(std::max({std::abs(x), std::abs(y), std::abs(z)}), 1.5 - 0.28 * 0.5);
   }
   EXPECT_LT(layers_at(points, {}, 0.5), 1e-12);
 }
 
 TEST(Fill, TakesTheCellsThatASolidMeets) {
   const std::vector<LeafPoint> points = fill(solid_of(cube(10)), 1);
-  EXPECT_GE(points.size(), 27u * 27 * 27);
-  EXPECT_LE(points.size(), 29u * 29 * 29);
+  EXPECT_GE(points.size(), 35u * 35 * 35);
+  EXPECT_LE(points.size(), 37u * 37 * 37);
   // As many for a cube and a kernel of half the size.
   const std::vector<LeafPoint> half = fill(solid_of(cube(5)), 0.5);
   EXPECT_EQ(half.size(), points.size());
 }
 
 TEST(Fill, JoinsWhatLiesDeepInALargeOne) {
-  const double cells = std::pow(20 / 0.36, 3);
+  const double cells = std::pow(20 / 0.28, 3);
   const LeafSolid solid = solid_of(cube(20));
   const std::vector<LeafPoint> points = fill(solid, 1);
   EXPECT_LT(static_cast<double>(points.size()), 0.75 * cells);
@@ -183,7 +183,7 @@ TEST(Fill, JoinsWhatLiesDeepInALargeOne) {
 
 TEST(Fill, OfWholeCellsIsTheirMiddles) {
   // Lines of samples run along the diagonals of the faces.
-  const double radius = 4 / 0.36;
+  const double radius = 4 / 0.28;
   const std::vector<LeafPoint> points = fill(solid_of(cube(8, {4, -4, 4})), radius);
   ASSERT_EQ(points.size(), 8u);
   for (std::size_t i = 0; i < 8; ++i) {
@@ -196,7 +196,7 @@ TEST(Fill, OfWholeCellsIsTheirMiddles) {
 
 TEST(Fill, IsCompleteWhereLinesRunAlongFacesAndEdges) {
   // Samples are at halves: lines lie in four of the faces.
-  const double radius = 4 / 0.36;
+  const double radius = 4 / 0.28;
   const LeafSolid solid = solid_of(cube(16, {0.5, 0.5, 0.5}));
   const std::vector<LeafPoint> points = fill(solid, radius);
   EXPECT_NEAR(area_of(points), solid.area, 1e-9 * solid.area);
@@ -240,7 +240,7 @@ TEST(Fill, DoesNotCareForWinding) {
 }
 
 TEST(Fill, GoesWithTheLattice) {
-  constexpr double kRadius = 0.5, kCell = 0.36 * kRadius;
+  constexpr double kRadius = 0.5, kCell = 0.28 * kRadius;
   using Map = std::function<Vec3d(Vec3d)>;
   const std::pair<const char*, Map> maps[] = {
       {"moved", [](Vec3d p) { return p + Vec3d(3, -7, 11) * kCell; }},
