@@ -177,9 +177,9 @@ TEST(AreaBytes, AreTheSameDenseOnAnyThreadsAndAgain) {
   }
 }
 
-/// Cards within a closed crown, with room between.
+/// Cards within a crown of cards, with room between.
 TreeModel crown_with_a_hollow() {
-  TreeModel tree = test::closed_sphere();
+  TreeModel tree = test::sphere_of_cards();
   tree.instances.push_back({1, "node"});
   tree.primitives.push_back(test::cards_in_ball(60, 0.6, 0.5, 0.4));
   tree.primitives.back().material = 0;

@@ -167,8 +167,8 @@ TEST(Coverage, IsThatOfTheMesh) {
   EXPECT_NEAR(static_cast<double>(inside) / static_cast<double>(places.size()), 0.8, 0.02);
 }
 
-TEST(Coverage, OfAClosedCrownSaysWhatWasReached) {
-  const TreeModel tree = test::closed_sphere();
+TEST(Coverage, OfACrownThatIsOneSheetSaysWhatWasReached) {
+  const TreeModel tree = test::sphere_of_cards();
   const std::vector<Vec3d> places = test::places_on(tree, 10000);
   for (const double coverage : {0.5, 0.9}) {
     Options options = at(Preset::draft);

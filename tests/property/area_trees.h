@@ -122,6 +122,25 @@ inline TreeModel closed_sphere() {
   return tree_of({fine});
 }
 
+/// Cards that lie where the faces of closed_sphere() do, next to each other but apart: a crown that
+/// encloses a hollow and is no solid.
+inline TreeModel sphere_of_cards() {
+  TreeModel tree = closed_sphere();
+  const Primitive whole = tree.primitives[0];
+  Primitive& p = tree.primitives[0];
+  p.positions.clear(), p.triangles.clear();
+  for (const auto& [a, b, c] : whole.triangles) {
+    const auto first = static_cast<std::uint32_t>(p.positions.size());
+    const Vec3f middle =
+        (whole.positions[a] + whole.positions[b] + whole.positions[c]) * (1 / 3.0f);
+    for (const std::uint32_t v : {a, b, c}) {
+      p.positions.push_back(middle + (whole.positions[v] - middle) * 0.999f);
+    }
+    p.triangles.push_back({first, first + 1, first + 2});
+  }
+  return tree;
+}
+
 /// A closed crown of six faces, 3 x 2 x 2.
 inline TreeModel closed_box() {
   Primitive p;
