@@ -11,6 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include "forest/compute_tile.h"
+#include "forest/plan.h"
 #include "leafhull/error.h"
 #include "leafhull/series.h"
 #include "leafhull/shape.h"
@@ -30,6 +32,11 @@ Device& device() {
 
 const LeafSet& ash() {
   static const LeafSet leaves = find_leaves(read_tree(LEAFHULL_EXAMPLES "/ash.glb"), {});
+  return leaves;
+}
+
+const LeafSet& more_cards() {
+  static const LeafSet leaves = find_leaves(test::card_tree(300), {});
   return leaves;
 }
 
@@ -342,6 +349,66 @@ TEST(SlidersOfACard, AnErosionOfASheetOfOneDensityIsRefused) {
   options.erosion.reset();
   options.coverage = 0.98;
   EXPECT_NO_THROW(extract(card, options, device()));
+}
+
+/// A forest of trees of two kinds, one of each.
+struct Forest {
+  Scene scene;
+  std::vector<LeafSet> models;
+  std::vector<Options> shapes;
+  ForestLevel level;
+};
+
+PlacedTree placed(std::uint32_t model, Vec3d position, float scale) {
+  return {position, {scale, 0, 0, 0, scale, 0, 0, 0, scale}, model};
+}
+
+Forest forest_of(const Options& options) {
+  Forest forest;
+  forest.scene.models.resize(2);
+  forest.scene.trees = {placed(0, {}, 1), placed(1, {20, 0, 0}, 1)};
+  forest.models = {cards(), more_cards()};
+  const std::vector<ModelUse> uses = model_uses(forest.scene);
+  forest.shapes = shapes_of(forest.models, uses, options, device());
+  forest.level =
+      prepare_level(0, forest.models, uses, forest.shapes, *options.voxel_size, nullptr, device());
+  return forest;
+}
+
+/// The triangles of a forest near its first tree, or near the other.
+std::vector<test::Corners> canopy(const Forest& forest, bool other) {
+  std::vector<test::Corners> all;
+  constexpr int kEdge = 128;
+  const TilePlan plan(forest.scene, forest.level, kEdge);
+  for (std::size_t t = 0; t < plan.size(); ++t) {
+    const TileTask task{plan.tiles()[t], kEdge, plan.trees(t)};
+    for (const auto& corners :
+         test::corners_of(compute_tile(forest.scene, forest.level, task, device()).mesh)) {
+      if ((corners[0].x > 10) == other) all.push_back(corners);
+    }
+  }
+  return all;
+}
+
+TEST(SlidersOfAForest, AreThoseOfEachOfItsTrees) {
+  ForestOptions asked_for;
+  asked_for.shape = asked(0.1, 0.6);
+  asked_for.shape.preset.reset();
+  asked_for.shape.min_component = 0;  // small pieces over seams are known once all tiles are
+  asked_for.shape.voxel_size = cards().crown.longest_side() / 100;
+  const Options options = resolved_shape(asked_for);
+  const Forest forest = forest_of(options);
+  EXPECT_EQ(forest.level.threshold, 1) << "each model has its own";
+  EXPECT_NE(forest.shapes[0].radius_max, forest.shapes[1].radius_max);
+  for (const bool other : {false, true}) {
+    SCOPED_TRACE(other ? "more cards" : "cards");
+    const LeafSet& leaves = other ? more_cards() : cards();
+    const Shape alone = extract(leaves, options, device());
+    expect_kept(alone.report, options);
+    EXPECT_EQ(forest.shapes[other].radius_max, alone.report.options.radius_max);
+    EXPECT_GT(test::volume(alone.mesh), 5);
+    EXPECT_NEAR(test::volume(canopy(forest, other)) / test::volume(alone.mesh), 1, 0.01);
+  }
 }
 
 }  // namespace
