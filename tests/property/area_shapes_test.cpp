@@ -177,11 +177,11 @@ TEST(AreaBytes, AreTheSameDenseOnAnyThreadsAndAgain) {
   }
 }
 
-/// Cards within six others that leave no way in, with room between.
+/// Cards within a crown of cards, with room between.
 TreeModel crown_with_a_hollow() {
-  TreeModel tree = test::box_of_cards(0.999);
+  TreeModel tree = test::sphere_of_cards();
   tree.instances.push_back({1, "node"});
-  tree.primitives.push_back(test::cards_in_ball(9, 0.3, 0.4, 0.3));
+  tree.primitives.push_back(test::cards_in_ball(60, 0.6, 0.5, 0.4));
   tree.primitives.back().material = 0;
   return tree;
 }

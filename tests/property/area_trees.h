@@ -122,21 +122,37 @@ inline TreeModel closed_sphere() {
   return tree_of({fine});
 }
 
-/// A crown of six faces, 3 x 2 x 2, each `part` as wide as it would have to be to close it.
-inline TreeModel box_of_cards(double part) {
+/// Cards that lie where the faces of closed_sphere() do, next to each other but apart: a crown that
+/// encloses a hollow and is no solid.
+inline TreeModel sphere_of_cards() {
+  TreeModel tree = closed_sphere();
+  const Primitive whole = tree.primitives[0];
+  Primitive& p = tree.primitives[0];
+  p.positions.clear(), p.triangles.clear();
+  for (const auto& [a, b, c] : whole.triangles) {
+    const auto first = static_cast<std::uint32_t>(p.positions.size());
+    const Vec3f middle =
+        (whole.positions[a] + whole.positions[b] + whole.positions[c]) * (1 / 3.0f);
+    for (const std::uint32_t v : {a, b, c}) {
+      p.positions.push_back(middle + (whole.positions[v] - middle) * 0.999f);
+    }
+    p.triangles.push_back({first, first + 1, first + 2});
+  }
+  return tree;
+}
+
+/// A closed crown of six faces, 3 x 2 x 2.
+inline TreeModel closed_box() {
   Primitive p;
   const Vec3d half[] = {{1.5, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   for (int axis = 0; axis < 3; ++axis) {
-    const Vec3d n = half[axis], u = half[(axis + 1) % 3] * part, v = half[(axis + 2) % 3] * part;
+    const Vec3d n = half[axis], u = half[(axis + 1) % 3], v = half[(axis + 2) % 3];
     add_card(p, n, u, v);
     add_card(p, -n, v, u);
   }
   p.uvs.clear();
   return tree_of({p});
 }
-
-/// A closed crown of six faces.
-inline TreeModel closed_box() { return box_of_cards(1); }
 
 /// Half a cylinder of radius 1.5, welded: flat quads along its axis, visible in discs.
 inline TreeModel curved_sheet() {

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which places on the leaves the shape leaves outside.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "surface/components.h"
+#include "surface/hollows.h"
+#include "surface/metrics.h"
+#include "surface/polygonise.h"
+#include "unit/surface_test_fields.h"
+
+namespace leafhull {
+namespace {
+
+using Density = std::function<double(Vec3d)>;
+
+constexpr Coord kLow{-24, -16, -16}, kHigh{24, 16, 16};
+
+/// 1 at its radius, 2 in the middle, falling outward.
+Density ball(Vec3d centre, double radius) {
+  return [=](Vec3d p) {
+    const Vec3d d = p - centre;
+    return std::max(0.0, 2 - dot(d, d) / (radius * radius));
+  };
+}
+
+Density together(const Density& a, const Density& b) {
+  return [=](Vec3d p) { return std::max(a(p), b(p)); };
+}
+
+/// A ball with a round hollow in it.
+Density shell(double radius, Vec3d middle, double hollow) {
+  return [=, outer = ball({}, radius)](Vec3d p) {
+    return std::min(outer(p), std::pow(length(p - middle) / hollow, 2));
+  };
+}
+
+/// Of a field with T = 1, its pieces below the share `least` of the largest being dropped.
+double outside(const Field& field, const Density& density, std::span<const Vec3d> places,
+               double least = 0) {
+  Polygons polygons = polygonise(field, 0);
+  const ComponentCount pieces = drop_small_components(polygons, least);
+  std::vector<float> there;
+  for (const Vec3d& place : places) there.push_back(static_cast<float>(density(place)));
+  return share_outside(field, places, there, pieces.dropped_cells);
+}
+
+double outside(const Density& density, std::span<const Vec3d> places, double least = 0) {
+  return outside(field_of(density, 1, kLow, kHigh), density, places, least);
+}
+
+TEST(ShareOutside, IsOfPlacesBelowT) {
+  const Density one = ball({0.3, 0.2, 0.1}, 8.4);
+  std::vector<Vec3d> places;
+  std::size_t below = 0;
+  for (double x = -12; x <= 12; x += 0.61) {
+    for (double y = -12; y <= 12; y += 0.73) {
+      places.emplace_back(x, y, 0.37);
+      below += one(places.back()) < 1;
+    }
+  }
+  EXPECT_EQ(outside(one, places), static_cast<double>(below) / static_cast<double>(places.size()));
+}
+
+TEST(ShareOutside, GoesByTheDensityInCellsThatTheSurfaceCrosses) {
+  const Density one = ball({}, 8.5);
+  const Field field = field_of(one, 1, kLow, kHigh);
+  const std::vector<Vec3d> places{{8.4, 0, 0}, {8.6, 0, 0}};
+  EXPECT_EQ(share_outside(field, places, std::vector<float>{1.02f, 0.98f}, {}), 0.5);
+  EXPECT_EQ(share_outside(field, places, std::vector<float>{0.98f, 0.98f}, {}), 1);
+  EXPECT_EQ(share_outside(field, places, std::vector<float>{1, 1}, {}), 0) << "T itself is inside";
+}
+
+TEST(ShareOutside, TakesInAHollowThatWasFilled) {
+  const Density hollow = shell(10, {}, 5);
+  const std::vector<Vec3d> places{{0, 0, 0}, {2, 1, -2}, {7, 0, 0}, {12, 0, 0}};
+  EXPECT_EQ(outside(hollow, places), 0.75);
+  EXPECT_EQ(outside(fill_hollows(field_of(hollow, 1, kLow, kHigh)), hollow, places), 0.25);
+}
+
+TEST(ShareOutside, CountsWhatTheLatticeDoesNotSee) {
+  // Much smaller than a cell, between its corners.
+  const Density speck = together(ball({-8, 0, 0}, 5), ball({8.5, 0.5, 0.5}, 0.4));
+  const std::vector<Vec3d> places{{8.5, 0.5, 0.5}, {-8, 0, 0}};
+  EXPECT_GT(speck(places[0]), 1);
+  EXPECT_EQ(outside(speck, places), 0.5);
+}
+
+TEST(ShareOutside, CountsPiecesThatAreDropped) {
+  for (const double sign : {-1.0, 1.0}) {
+    const Vec3d large(-8 * sign, 0, 0), small(12 * sign, 0, 0);
+    const Density two = together(ball(large, 7.3), ball(small, 4.2));
+    // In its middle, next to its surface on all sides, and in the large one.
+    const std::vector<Vec3d> places{small,
+                                    small + Vec3d(3.9, 0, 0),
+                                    small + Vec3d(-3.9, 0, 0),
+                                    small + Vec3d(0, 3.9, 0.1),
+                                    small + Vec3d(0.1, 0.2, -3.9),
+                                    large,
+                                    large + Vec3d(7, 0, 0),
+                                    large + Vec3d(-7, 0, 0)};
+    EXPECT_EQ(outside(two, places), 0);
+    EXPECT_EQ(outside(two, places, 0.5), 5 / 8.0);
+  }
+}
+
+TEST(ShareOutside, CountsAPieceThatIsDroppedFromAHollow) {
+  const Density nested = together(shell(14, {}, 9), ball({1, 0, 0}, 3.2));
+  const std::vector<Vec3d> places{{1, 0, 0}, {2, 1, 0}, {-12, 0, 0}, {12, 0, 0}};
+  EXPECT_EQ(outside(nested, places), 0);
+  EXPECT_EQ(outside(nested, places, 0.1), 0.5);
+}
+
+}  // namespace
+}  // namespace leafhull
