@@ -98,6 +98,24 @@ TEST(FindRadius, IsNotMisledByTheLatticesNoise) {
   }
 }
 
+TEST(FindRadius, OnABendIsNotStuckAtOneEnd) {
+  // Flat at first and then steep, and the other way round.
+  for (const double power : {0.5, 5.0, 10.0}) {
+    const auto bent = [=](double radius) {
+      const double x = std::log(radius / kSmallestRadiusMax);
+      return 0.1 + 0.8 * std::pow(x / std::log(kLargestRadiusMax / kSmallestRadiusMax), power);
+    };
+    for (const double wanted : {0.15, 0.3, 0.5, 0.7, 0.85}) {
+      for (const double start : kStarts) {
+        SCOPED_TRACE(testing::Message() << power << ' ' << wanted << ' ' << start);
+        const auto [found, calls] = search(wanted, start, bent);
+        EXPECT_TRUE(found.reached);
+        EXPECT_LE(calls, 12u);
+      }
+    }
+  }
+}
+
 TEST(FindRadius, OnStepsTakesTheNearest) {
   const auto stepped = [](double radius) {
     return std::round(rising(0.25)(radius) / 0.016) * 0.016;

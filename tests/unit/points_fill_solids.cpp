@@ -323,6 +323,9 @@ TEST(AreaPoints, FillWhatIsThickAndKnowItsSamples) {
     EXPECT_LT(std::max(std::abs(p.position.y), std::abs(p.position.z)), 1);
   }
   EXPECT_NEAR(within, 32, 1e-6);
+  const auto in_box =
+      std::ranges::count_if(points.points, [](const LeafPoint& p) { return p.position.x < 2; });
+  EXPECT_GE(static_cast<double>(in_box), 3 * 2 * 2 / volume_of_cell(0.6));
   EXPECT_NEAR(area, 36, 1e-6);
   EXPECT_NEAR(points.area, 36, 1e-6);
   std::size_t on_box = 0;
