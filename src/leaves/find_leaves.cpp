@@ -38,6 +38,9 @@ void check(const LeafOptions& options) {
   }
 }
 
+/// Needles of fewer faces are not looked at.
+constexpr std::size_t kFewestFacesOfSolid = 8;
+
 /// Takes the leaves of one placed primitive after the other.
 class LeafCollector {
  public:
@@ -86,12 +89,15 @@ class LeafCollector {
   }
 
   void take_component(const Source& source, std::span<const Face> component) {
-    if (take_if_flat(source, component)) return;
-    ++leaves_.split_components;
-    if (const std::vector<EigenTriangle> closed = closed_surface(mesh_); !closed.empty()) {
-      sheets_.begin_solid(closed, first_point(source));
+    if (component.size() >= kFewestFacesOfSolid) {
+      mesh_.assign(source.mesh, component, source.placement.linear);
+      const std::vector<EigenTriangle> closed = closed_surface(mesh_);
+      if (!closed.empty()) sheets_.begin_solid(closed, first_point(source));
     }
-    take_pieces(source, component);
+    if (!take_if_flat(source, component)) {
+      ++leaves_.split_components;
+      take_pieces(source, component);
+    }
     sheets_.end_solid();
   }
 

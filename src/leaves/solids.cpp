@@ -83,6 +83,51 @@ std::vector<std::vector<Edge>> openings(const std::vector<Edge>& rim) {
   return all;
 }
 
+/// Turns as few faces as it takes for neighbours to agree across edges of two.
+void turn_alike(std::vector<EigenTriangle>& surface) {
+  const auto key = [](const Eigen::Vector3d& p) { return std::array{p.x(), p.y(), p.z()}; };
+  using Point = std::array<double, 3>;
+  struct Side {
+    std::size_t face;
+    bool ascends;  // along the edge, from the lesser end
+  };
+  std::map<std::pair<Point, Point>, std::vector<Side>> edges;
+  for (std::size_t face = 0; face < surface.size(); ++face) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Point a = key(surface[face][i]), b = key(surface[face][(i + 1) % 3]);
+      edges[std::minmax(a, b)].push_back({face, a < b});
+    }
+  }
+  std::vector<std::vector<std::pair<std::size_t, bool>>> next(surface.size());  // whether it agrees
+  for (const auto& [ends, sides] : edges) {
+    if (sides.size() != 2) continue;
+    const bool agrees = sides[0].ascends != sides[1].ascends;
+    next[sides[0].face].emplace_back(sides[1].face, agrees);
+    next[sides[1].face].emplace_back(sides[0].face, agrees);
+  }
+  std::vector<bool> seen(surface.size());
+  const auto turn = [&](std::size_t face) { std::swap(surface[face][1], surface[face][2]); };
+  for (std::size_t first = 0; first < surface.size(); ++first) {
+    if (seen[first]) continue;
+    std::vector<std::size_t> part{first};
+    std::vector<bool> turned{false};
+    seen[first] = true;
+    for (std::size_t i = 0; i < part.size(); ++i) {
+      const std::size_t face = part[i];
+      for (const auto& [other, agrees] : next[face]) {
+        if (seen[other]) continue;
+        seen[other] = true;
+        part.push_back(other);
+        turned.push_back(agrees == turned[i]);
+      }
+    }
+    const bool minority = 2 * std::ranges::count(turned, true) <= std::ssize(turned);
+    for (std::size_t i = 0; i < part.size(); ++i) {
+      if (turned[i] == minority) turn(part[i]);
+    }
+  }
+}
+
 double area_of(const EigenTriangle& t) { return (t[1] - t[0]).cross(t[2] - t[0]).norm() / 2; }
 
 }  // namespace
@@ -106,6 +151,7 @@ std::vector<EigenTriangle> closed_surface(const LeafMesh& component) {
     }
   }
   if (cones > kMostOpen * own) surface.clear();
+  turn_alike(surface);
   return surface;
 }
 

@@ -26,7 +26,8 @@ using EigenTriangle = std::array<Eigen::Vector3d, 3>;
 /// The closed surface of a component, or none where it does not enclose anything. Two faces that
 /// lie on each other, as between the cubes of a crown of cubes, cancel; where all do, as in a crown
 /// with back faces, one of each stays. Openings, as at the foot of a dome, are closed by a cone
-/// over their rim, unless these cones are larger than half of the surface.
+/// over their rim, unless these cones are larger than 0.55 of the surface. Its triangles face the
+/// same way, inwards or outwards.
 std::vector<EigenTriangle> closed_surface(const LeafMesh& component);
 
 }  // namespace leafhull

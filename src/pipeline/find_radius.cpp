@@ -10,7 +10,7 @@ namespace leafhull {
 namespace {
 
 constexpr double kClose = 0.004, kCloseEnough = 0.01;
-constexpr int kMostCalls = 16;
+constexpr int kFewCalls = 6, kMostCalls = 16;
 /// How much the dilation grows as R_max grows e-fold, on trees of all kinds: 0.2 to 0.5.
 constexpr double kSlope = 0.3, kLeastSlope = 0.1;
 /// Of the logarithm of the radius: the longest step into the unknown, as small radii are dear; and
@@ -23,10 +23,9 @@ struct Try {
 };
 
 /// Where nothing has been tried yet for long, or nowhere.
-std::optional<double> widest_gap(const std::vector<Try>& tries, double least, double most) {
-  std::vector<double> places{least};
-  for (const Try& t : tries) places.push_back(t.x);
-  places.push_back(most);
+std::optional<double> widest_gap(std::vector<double> places, double least, double most) {
+  places.insert(places.end(), {least, most});
+  std::ranges::sort(places);
   double widest = kWideGap;
   std::optional<double> middle;
   for (std::size_t i = 1; i < places.size(); ++i) {
@@ -71,23 +70,30 @@ std::optional<double> next_nearby(const std::vector<Try>& tries, double least, d
 
 }  // namespace
 
-RadiusFound find_radius(double wanted, double start,
-                        const std::function<double(double radius)>& dilation_at) {
+std::optional<RadiusFound> find_radius(
+    double wanted, double start,
+    const std::function<std::optional<double>(double radius)>& dilation_at) {
   const double least = std::log(kSmallestRadiusMax), most = std::log(kLargestRadiusMax);
   std::vector<Try> tries;
-  RadiusFound best;
+  std::vector<double> places;  // of all tries, with those that gave no shape
+  std::optional<RadiusFound> best;
   std::optional<double> x = std::clamp(std::log(start), least, most);
   for (int call = 0; call < kMostCalls && x; ++call) {
-    const double radius = std::exp(*x), dilation = dilation_at(radius);
-    const double error = std::abs(dilation - wanted);
-    if (call == 0 || error < std::abs(best.dilation - wanted)) {
-      best = {radius, dilation, error <= kCloseEnough};
+    places.push_back(*x);
+    const double radius = std::exp(*x);
+    x.reset();
+    if (const std::optional<double> dilation = dilation_at(radius)) {
+      const double error = std::abs(*dilation - wanted);
+      if (!best || error < std::abs(best->dilation - wanted)) {
+        best = {radius, *dilation, error <= kCloseEnough};
+      }
+      if (error <= (call < kFewCalls ? kClose : kCloseEnough)) break;
+      tries.push_back({places.back(), *dilation - wanted});
+      std::ranges::sort(tries, {}, &Try::x);
+      x = next_nearby(tries, least, most);
+      if (x && std::ranges::find(places, *x) != places.end()) x.reset();
     }
-    if (error <= kClose) break;
-    tries.push_back({*x, dilation - wanted});
-    std::ranges::sort(tries, {}, &Try::x);
-    x = next_nearby(tries, least, most);
-    if (!x) x = widest_gap(tries, least, most);
+    if (!x) x = widest_gap(places, least, most);
   }
   return best;
 }

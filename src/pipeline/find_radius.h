@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 
 namespace leafhull {
 
@@ -17,10 +18,12 @@ struct RadiusFound {
 };
 
 /// R_max such that the dilation is `wanted`, within 0.004, or within 0.01 where the lattice allows
-/// no closer. `dilation_at` rises with the radius, but for the lattice's noise and for compact
+/// no closer; nothing where no radius that was tried gives a shape. `dilation_at`, nothing where
+/// there is none, rises with the radius, but for the lattice's noise and for compact
 /// trees, where it falls again beyond some radius; each call computes a shape. The search begins at
 /// `start` and takes three or four calls, and no more than sixteen.
-RadiusFound find_radius(double wanted, double start,
-                        const std::function<double(double radius)>& dilation_at);
+std::optional<RadiusFound> find_radius(
+    double wanted, double start,
+    const std::function<std::optional<double>(double radius)>& dilation_at);
 
 }  // namespace leafhull

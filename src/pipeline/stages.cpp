@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <exception>
 #include <limits>
 #include <string>
 #include <utility>
@@ -150,7 +151,7 @@ double dilated_share(const Metrics& metrics) {
 constexpr double kCoverageMissed = 0.025;
 
 void warn_of_points(const LeafSet& leaves, const Options& options, std::span<const float> there,
-                    Report& report) {
+                    const std::vector<bool>& in_solid, Report& report) {
   char text[240];
   if (options.points == PointSource::vertices &&
       leaves.mean_radius_major > report.radius_max_model) {
@@ -170,6 +171,8 @@ void warn_of_points(const LeafSet& leaves, const Options& options, std::span<con
   if (std::max(report.covered - *options.coverage, *options.coverage - low) <= kCoverageMissed) {
     return;
   }
+  const auto in_solids = std::count(in_solid.begin(), in_solid.end(), true);
+  if (2 * in_solids > std::ssize(in_solid)) return;  // filled out
   if (options.points == PointSource::area) {
     std::snprintf(
         text, sizeof text,
@@ -245,14 +248,22 @@ void Stages::solve(Report& report) {
   Options& options = report.options;
   const double crown_unit = leaves_.crown.longest_side() / kCrownUnits;
   const double start = radius_max_in_model_units(leaves_, options) / crown_unit;
-  const auto dilation_at = [&](double radius) {
+  std::exception_ptr refusal;
+  const auto dilation_at = [&](double radius) -> std::optional<double> {
     options.radius_max = radius;
-    prepare_at(report);
+    try {
+      prepare_at(report);
+    } catch (const Error& error) {  // no T has the erosion with this radius
+      if (error.code() != ErrorCode::usage) throw;
+      refusal = std::current_exception();
+      return {};
+    }
     return dilation(report);
   };
-  const RadiusFound found = find_radius(*options.dilation, start, dilation_at);
-  if (!found.reached) refuse_dilation(found, options);
-  if (options.radius_max != found.radius) (void)dilation_at(found.radius);
+  const std::optional<RadiusFound> found = find_radius(*options.dilation, start, dilation_at);
+  if (!found) std::rethrow_exception(refusal);
+  if (!found->reached) refuse_dilation(*found, options);
+  if (options.radius_max != found->radius) (void)dilation_at(found->radius);
 }
 
 Stages::Surface Stages::surface(Report& prepared, Mesher mesher) {
@@ -288,7 +299,7 @@ bool Stages::is_eroded(const Field& field, bool is_last, Report& report) {
 
 double Stages::erosion(const Field& field, const Lattice& lattice,
                        std::span<const Coord> dropped) const {
-  return share_outside(field, local(points_.value.samples, lattice), density_there_.value, dropped);
+  return share_outside(field, local(points_.value.samples, lattice), dropped);
 }
 
 void Stages::prepare_at(Report& report) {
@@ -363,7 +374,7 @@ void Stages::describe(Report& report) const {
   });
   report.metrics.off_site_exact = static_cast<std::uint64_t>(off_site);
   report.covered = 1 - static_cast<double>(off_site) / static_cast<double>(there.size());
-  warn_of_points(leaves_, options, there, report);
+  warn_of_points(leaves_, options, there, points_.value.in_solid, report);
 }
 
 FieldMemory Stages::memory(const Report& prepared, const std::vector<double>& thresholds) {
@@ -408,6 +419,10 @@ Polygons Stages::polygonise(const Field& field, Mesher mesher, Report& report) {
                           : leafhull::polygonise(field, options.adaptivity);
   ComponentCount components = drop_small_components(polygons, *options.min_component);
   dropped_cells_ = std::move(components.dropped_cells);
+  if (options.adaptivity > 0 && components.dropped > 0) {  // merged vertices leave cells out
+    Polygons fine = mesh_bricks(field);
+    dropped_cells_ = drop_small_components(fine, *options.min_component).dropped_cells;
+  }
   report.counts.components = components.kept;
   warn_of_pieces(components.kept, report);
   report.counts.dropped_components = components.dropped;

@@ -26,8 +26,9 @@ Roots roots_of(const Polygons& polygons) {
   return std::move(sets).lowest();
 }
 
-/// The volume that each component encloses, times twelve, at its root vertex. A quad counts as the
-/// mean of its two foldings, so that it does not matter at which corner it begins.
+/// The volume that each component encloses, times twelve, at its root vertex; of a hollow negative.
+/// A quad counts as the mean of its two foldings, so that it does not matter at which corner it
+/// begins.
 std::vector<double> volumes(const Polygons& polygons, const Roots& root) {
   std::vector<double> part(polygons.faces.size());
   tbb::parallel_for(std::size_t{0}, part.size(), [&](std::size_t f) {
@@ -39,7 +40,6 @@ std::vector<double> volumes(const Polygons& polygons, const Roots& root) {
   });
   std::vector<double> volume(polygons.points.size(), 0.0);
   for (std::size_t f = 0; f < part.size(); ++f) volume[root[polygons.faces[f][0]]] += part[f];
-  for (double& v : volume) v = std::fabs(v);
   return volume;
 }
 
@@ -49,11 +49,12 @@ class Components {
   Components(const Polygons& polygons, double smallest)
       : root_(roots_of(polygons)), volume_(volumes(polygons, root_)) {
     if (!volume_.empty()) {
-      least_ = smallest * *std::max_element(volume_.begin(), volume_.end());
+      for (const double v : volume_) least_ = std::max(least_, smallest * std::fabs(v));
     }
   }
   bool is_root(std::uint32_t v) const { return root_[v] == v; }
-  bool stays(std::uint32_t v) const { return volume_[root_[v]] >= least_; }
+  bool stays(std::uint32_t v) const { return std::fabs(volume_[root_[v]]) >= least_; }
+  bool is_hollow(std::uint32_t v) const { return volume_[root_[v]] < 0; }
 
  private:
   Roots root_;
@@ -91,7 +92,9 @@ ComponentCount drop_small_components(Polygons& polygons, double smallest) {
   std::uint32_t next = 0;
   for (std::uint32_t v = 0; v < vertices; ++v) {
     if (!stays(v)) {
-      count.dropped_cells.push_back(cell_of(Vec3d(polygons.points[v])));
+      if (!components.is_hollow(v)) {
+        count.dropped_cells.push_back(cell_of(Vec3d(polygons.points[v])));
+      }
       continue;
     }
     moved_to[v] = next;

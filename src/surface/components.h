@@ -10,7 +10,8 @@ namespace leafhull {
 
 struct ComponentCount {
   std::uint64_t kept = 0, dropped = 0;
-  std::vector<Coord> dropped_cells;  ///< that hold vertices of those dropped, ascending, none twice
+  /// That hold vertices of those dropped which are no hollows; ascending, none twice.
+  std::vector<Coord> dropped_cells;
 };
 
 /// Drops the connected components of a closed mesh whose enclosed volume is below `smallest` times

@@ -175,21 +175,23 @@ Placed place(std::span<const Vec3d> leaf_vertices, const Field& field) {
 }
 
 /// Whether a place belongs to the shape.
-bool is_in_shape(Vec3d place, float density, const Field& field,
-                 const openvdb::FloatGrid::ConstAccessor& negated, std::span<const Coord> dropped) {
+bool is_in_shape(Vec3d place, const Field& field, const openvdb::FloatGrid::ConstAccessor& negated,
+                 std::span<const Coord> dropped) {
   const float iso = field.iso_value();
-  const auto corners_inside = [&](Coord cell) {
-    const Corners corners = corners_of(negated, cell);
+  const auto count_inside = [&](const Corners& corners) {
     return std::count_if(corners.begin(), corners.end(), [&](float n) { return n < iso; });
   };
   Coord cell = cell_of(place);
-  auto inside = corners_inside(cell);
-  if (inside == 0 || (inside < 8 && static_cast<double>(density) < field.threshold())) return false;
+  Corners corners = corners_of(negated, cell);
+  if (count_inside(corners) < 8 &&
+      interpolate(corners, place - to_vec3d(cell)) > -field.threshold()) {
+    return false;
+  }
   if (dropped.empty()) return true;
   // The surface that encloses it is the first one along x.
-  while (inside == 8) {
+  while (count_inside(corners) == 8) {
     ++cell.x;
-    inside = corners_inside(cell);
+    corners = corners_of(negated, cell);
   }
   return !std::ranges::binary_search(dropped, cell);
 }
@@ -197,13 +199,13 @@ bool is_in_shape(Vec3d place, float density, const Field& field,
 }  // namespace
 
 double share_outside(const Field& field, std::span<const Vec3d> places,
-                     std::span<const float> density, std::span<const Coord> dropped) {
+                     std::span<const Coord> dropped) {
   const auto outside = tbb::parallel_reduce(
       tbb::blocked_range<std::size_t>(0, places.size(), 256), std::size_t{0},
       [&](const tbb::blocked_range<std::size_t>& r, std::size_t count) {
         const openvdb::FloatGrid::ConstAccessor negated = field.negated().getConstAccessor();
         for (std::size_t i = r.begin(); i < r.end(); ++i) {
-          count += !is_in_shape(places[i], density[i], field, negated, dropped);
+          count += !is_in_shape(places[i], field, negated, dropped);
         }
         return count;
       },

@@ -14,10 +14,10 @@ namespace leafhull {
 Metrics measure(const Field& field, std::span<const Vec3d> places,
                 std::span<const Vec3d> others = {});
 
-/// The share of `places` (voxels from the field's anchor) that the shape leaves outside, N there
-/// being `density`: below T, unless in a hollow that was filled; not seen by the lattice; or in a
-/// piece that was dropped, whose surface passes through the cells `dropped`, ascending.
+/// The share of `places` (voxels from the field's anchor) that the shape leaves outside: below T
+/// between the samples, unless in a hollow that was filled; or in a piece that was dropped, whose
+/// surface passes through the cells `dropped`, ascending.
 double share_outside(const Field& field, std::span<const Vec3d> places,
-                     std::span<const float> density, std::span<const Coord> dropped);
+                     std::span<const Coord> dropped);
 
 }  // namespace leafhull

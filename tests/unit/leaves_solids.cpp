@@ -119,6 +119,7 @@ TEST(ClosedSurface, CountsFrontAndBackOnce) {
   const auto once = closed(cube);
   EXPECT_EQ(once.size(), 12u);
   EXPECT_DOUBLE_EQ(area(once), 24);
+  EXPECT_DOUBLE_EQ(std::abs(volume(once)), 8);
   // And where they are vertices of their own, as exporters write them.
   Primitive stored = box({-1, -1, -1}, {1, 1, 1});
   Primitive back = stored;

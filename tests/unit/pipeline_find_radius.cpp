@@ -25,7 +25,7 @@ Search search(double wanted, double start, const Dilation& dilation) {
   std::set<double> radii;
   double nearest = HUGE_VAL;
   std::size_t calls = 0;
-  const RadiusFound found = find_radius(wanted, start, [&](double radius) {
+  const RadiusFound found = *find_radius(wanted, start, [&](double radius) {
     ++calls;
     EXPECT_TRUE(radii.insert(radius).second) << radius << " is tried twice";
     EXPECT_GE(radius, kSmallestRadiusMax * (1 - 1e-12));
