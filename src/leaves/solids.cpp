@@ -52,7 +52,7 @@ std::vector<Edge> rim(const LeafMesh& component, const std::vector<std::size_t>&
   std::map<Edge, std::pair<std::size_t, Edge>> edges;
   for (const std::size_t face : faces) {
     const auto [a, b, c] = component.triangles[face];
-    for (const Edge edge : {Edge(a, b), Edge(b, c), Edge(c, a)}) {
+    for (const Edge& edge : {Edge(a, b), Edge(b, c), Edge(c, a)}) {
       auto& [count, directed] = edges[std::minmax(edge.first, edge.second)];
       ++count;
       directed = edge;

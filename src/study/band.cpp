@@ -21,7 +21,7 @@ constexpr int kMostProbes = 24;
 /// How far from where a search starts it goes, as a factor either way.
 constexpr double kReach = 16;
 
-constexpr double kBandWidth = 20, kBandStep = 10;  // percent of the leaf vertices
+constexpr int kBandWidth = 20, kBandStep = 10;  // percent of the leaf vertices
 constexpr Band kDeviations[] = {{0, 2}, {-0.5, 0}, {-1, -0.5}};
 
 /// A value and the share of the leaf vertices that is lost with it.
@@ -137,8 +137,9 @@ Options options_of(const BandRow& row) {
 void move_band(BandStudy& band, const LeafSet& leaves, Device& device) {
   StudyRow controlled = band.uncontrolled;
   controlled.method = Method::controlled;
-  for (double low = 100 - kBandWidth; low >= 0; low -= kBandStep) {
-    band.by_share.push_back({{low, low + kBandWidth, true}, controlled});
+  for (int low = 100 - kBandWidth; low >= 0; low -= kBandStep) {
+    const auto share = static_cast<double>(low);
+    band.by_share.push_back({{share, share + kBandWidth, true}, controlled});
   }
   for (const Band& deviations : kDeviations) band.by_deviation.push_back({deviations, controlled});
 
