@@ -166,9 +166,9 @@ std::optional<double> around_solids(std::span<const WeightedDensity> densities, 
     if (d.in_solid) in_solids += d.weight;
   }
   if (coverage < 0.95 || 2 * in_solids < all) return {};
-  const double share = coverage < 0.98   ? std::lerp(0.35, 0.3, (coverage - 0.95) / 0.03)
-                       : coverage < 0.99 ? std::lerp(0.3, 0.15, (coverage - 0.98) / 0.01)
-                                         : 0.15;
+  const double share = coverage < 0.98   ? std::lerp(0.27, 0.24, (coverage - 0.95) / 0.03)
+                       : coverage < 0.99 ? std::lerp(0.24, 0.12, (coverage - 0.98) / 0.01)
+                                         : 0.12;
   for (const WeightedDensity& d : densities) {
     if (!d.in_solid) continue;
     up_to += d.weight;

@@ -58,12 +58,12 @@ TEST(ClearOfSheets, TakesInFilledCrownsByTheirMiddle) {
     return clear_of_sheets(crown, quantile, coverage);
   };
   EXPECT_NEAR(of(0.949, 0.96), 0.96, 1e-6) << "below 0.95 as it is";
-  EXPECT_NEAR(of(0.95, 0.96), 0.35, 1e-6);
-  EXPECT_NEAR(of(0.965, 0.96), 0.325, 1e-6);
-  EXPECT_NEAR(of(0.98, 0.96), 0.3, 1e-6);
-  EXPECT_NEAR(of(0.985, 0.96), 0.225, 1e-6);
-  EXPECT_NEAR(of(0.99, 0.96), 0.15, 1e-6);
-  EXPECT_NEAR(of(1, 0.96), 0.15, 1e-6);
+  EXPECT_NEAR(of(0.95, 0.96), 0.27, 1e-6);
+  EXPECT_NEAR(of(0.965, 0.96), 0.255, 1e-6);
+  EXPECT_NEAR(of(0.98, 0.96), 0.24, 1e-6);
+  EXPECT_NEAR(of(0.985, 0.96), 0.18, 1e-6);
+  EXPECT_NEAR(of(0.99, 0.96), 0.12, 1e-6);
+  EXPECT_NEAR(of(1, 0.96), 0.12, 1e-6);
   EXPECT_NEAR(of(0.99, 0.1), 0.1, 1e-6) << "never raised";
 }
 
