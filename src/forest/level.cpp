@@ -221,7 +221,9 @@ std::vector<Options> shapes_of(std::span<const LeafSet> models, std::span<const 
     Stopwatch watch(no_progress);
     Report report;
     report.options = resolved;
-    Stages(models[m], device, watch).prepare(report);
+    Stages stages(models[m], device, watch);
+    stages.prepare(report);
+    stages.check_dilation(report);
     shapes[m].radius_max = report.options.radius_max;
   }
   return shapes;

@@ -207,14 +207,13 @@ void warn_of_pieces(std::uint64_t pieces, Report& report) {
               "Give that, a larger --dilation or --radius-max, or a smaller --min-component.");
 }
 
-[[noreturn]] void refuse_dilation(const RadiusFound& found, const Options& options) {
+[[noreturn]] void refuse_dilation(double found, const Options& options) {
   char text[200];
   std::snprintf(
       text, sizeof text,
       "a dilation of %.3g cannot be had on this tree: it goes %s to %.3g, with R_max %.3g "
       "crown units",
-      *options.dilation, found.dilation < *options.dilation ? "up" : "down", found.dilation,
-      found.radius);
+      *options.dilation, found < *options.dilation ? "up" : "down", found, *options.radius_max);
   throw Error(ErrorCode::usage, text, "Give that, or another --erosion.");
 }
 
@@ -240,6 +239,14 @@ void Stages::prepare(Report& report) {
               .low = 0,
               .high = options.erosion.value_or(0)};
   solve(report);
+  if (!options.erosion) check_dilation(report);
+}
+
+void Stages::check_dilation(const Report& prepared) {
+  const Options& options = prepared.options;
+  if (!options.dilation) return;
+  const double found = dilation(prepared);
+  if (std::abs(found - *options.dilation) > kSliderError) refuse_dilation(found, options);
 }
 
 /// prepare_at() with R_max such that the dilation is as asked for, T leaving out `sliders_.below`.
@@ -262,7 +269,8 @@ void Stages::solve(Report& report) {
   };
   const std::optional<RadiusFound> found = find_radius(*options.dilation, start, dilation_at);
   if (!found) std::rethrow_exception(refusal);
-  if (!found->reached) refuse_dilation(*found, options);
+  // What is the nearest may be moved by an erosion yet.
+  if (!found->reached) sliders_.finds_radius = false;
   if (options.radius_max != found->radius) (void)dilation_at(found->radius);
 }
 
@@ -272,7 +280,9 @@ Stages::Surface Stages::surface(Report& prepared, Mesher mesher) {
     sample(prepared, {prepared.threshold});
     Surface surface{take_field(prepared), {}};
     surface.polygons = polygonise(surface.field, mesher, prepared);
-    if (is_eroded(surface.field, round == kMostRounds, prepared)) return surface;
+    if (!is_eroded(surface.field, round == kMostRounds, prepared)) continue;
+    if (prepared.options.erosion) check_dilation(prepared);
+    return surface;
   }
 }
 

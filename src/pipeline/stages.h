@@ -77,6 +77,10 @@ class Stages {
   /// and have no R_max yet, finds and sets it.
   /// @throws Error usage: an erosion or a dilation that this tree cannot have.
   void prepare(Report& report);
+  /// Whether the dilation that is asked for was found. prepare() sees to it, but with an erosion,
+  /// which surface() may still correct.
+  /// @throws Error usage: it was not.
+  void check_dilation(const Report& prepared);
 
   /// What sample() would take, the last field given back.
   FieldMemory memory(const Report& prepared, const std::vector<double>& thresholds);

