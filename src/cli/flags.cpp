@@ -150,7 +150,7 @@ std::vector<Flag> suggest_flags() {
            .group = "Output",
            .range = ".png",
            .default_value = "TREE-suggest.png",
-           .help = "the pictures, a row for each coverage",
+           .help = "the pictures, a row for each erosion",
            .set = [](Arguments& a, const std::string& text) { a.picture = text; }}};
 }
 
