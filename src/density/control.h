@@ -66,7 +66,8 @@ std::optional<double> below_film(std::vector<WeightedDensity>& densities, double
 /// torn: below a film, and where nearly all leaves are asked for, 0.98 or more, at most 0.6. The
 /// surface of a filled crown has about one density, so that its quantiles are about the same; where
 /// most leaves are on such, a coverage of 0.95 takes in all that has 0.27 of the density that half
-/// of them have, one of 0.98 what has 0.24, one of 0.99 what has 0.12. `densities` come back sorted.
+/// of them have, one of 0.98 what has 0.24, one of 0.99 what has 0.12. `densities` come back
+/// sorted.
 double clear_of_sheets(std::vector<WeightedDensity>& densities, double threshold, double coverage);
 
 /// T such that the fraction `coverage` of the densities is at least T: halfway between the two
