@@ -200,11 +200,15 @@ void warn_of_pieces(std::uint64_t pieces, Report& report) {
 
 [[noreturn]] void refuse_erosion(double found, double asked) {
   char text[200];
-  std::snprintf(text, sizeof text,
-                "an erosion of %.3g cannot be had: pieces too small to be kept leave %.3g outside",
-                asked, found);
+  const bool too_much = found > asked;
+  std::snprintf(text, sizeof text, "an erosion of %.3g cannot be had: %s %.3g outside", asked,
+                too_much ? "pieces too small to be kept leave"
+                         : "hollows that are filled hold leaves, which leaves",
+                found);
   throw Error(ErrorCode::usage, text,
-              "Give that, a larger --dilation or --radius-max, or a smaller --min-component.");
+              too_much
+                  ? "Give that, a larger --dilation or --radius-max, or a smaller --min-component."
+                  : "Give that, or --hollows keep.");
 }
 
 [[noreturn]] void refuse_dilation(double found, const Options& options) {
@@ -237,7 +241,7 @@ void Stages::prepare(Report& report) {
   sliders_ = {.finds_radius = options.dilation && !options.radius_max,
               .below = options.erosion.value_or(0),
               .low = 0,
-              .high = options.erosion.value_or(0)};
+              .high = 1};
   solve(report);
   if (!options.erosion) check_dilation(report);
 }
