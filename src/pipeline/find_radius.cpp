@@ -22,7 +22,7 @@ struct Try {
   double excess = 0;  ///< of the dilation over what is wanted
 };
 
-/// Where nothing has been tried yet for long, or nowhere.
+/// The middle of the widest gap between tries; nowhere if none is wide.
 std::optional<double> widest_gap(std::vector<double> places, double least, double most) {
   places.insert(places.end(), {least, most});
   std::ranges::sort(places);
