@@ -17,6 +17,7 @@ struct Image {
   int width = 0;
   int height = 0;
   std::vector<std::uint8_t> rgba;
+  std::string name{};  ///< of its file or in the tree's; or none
   bool empty() const { return rgba.empty(); }
 };
 
@@ -39,6 +40,7 @@ struct Primitive {
   std::vector<Vec3f> positions;  ///< finite
   std::vector<Vec3f> normals;    ///< as many as positions, or none
   std::vector<Vec2f> uvs;  ///< for base_color_image, its texture transform applied; v down; or none
+  std::vector<Vec3f> colors;  ///< linear, multiply the base colour; as many as positions, or none
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< every index is below positions.size()
 };
 
@@ -46,11 +48,19 @@ struct Primitive {
 using Transform = std::array<std::array<double, 4>, 3>;
 inline constexpr Transform kIdentity{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
 
+/// A named place in the file's hierarchy: a node of glTF, an object or group of OBJ.
+struct Node {
+  std::string name;
+  int parent = -1;  ///< into TreeModel::nodes, -1: none
+  int level = 0;    ///< of detail, as MSFT_lod tells it: 0 the finest, or not told
+};
+
 /// A primitive placed in the scene.
 struct Instance {
   std::uint32_t primitive = 0;
   std::string node_name;
   Transform to_world = kIdentity;
+  int node = -1;  ///< into TreeModel::nodes, -1: unknown
 };
 
 /// What a tree file holds. Instances share primitives.
@@ -59,6 +69,7 @@ struct TreeModel {
   std::vector<Image> images;
   std::vector<Material> materials;
   std::vector<Primitive> primitives;
+  std::vector<Node> nodes;
   std::vector<Instance> instances;
   std::vector<std::string> warnings;  ///< what was passed over, one line each
 };

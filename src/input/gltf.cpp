@@ -16,7 +16,7 @@ TreeModel read_gltf(ByteSpan bytes, const std::string& name,
       input_error(name, place_of(placed), "has a transform that is not finite");
     }
     for (const std::uint32_t primitive : meshes.primitives.at(placed.mesh)) {
-      instances.push_back({primitive, placed.node_name, placed.to_world});
+      instances.push_back({primitive, placed.node_name, placed.to_world, placed.node});
     }
   };
   TreeModel tree = read_gltf_meshes(bytes, name, folder, place).tree;

@@ -227,6 +227,16 @@ std::vector<std::array<float, 4>> read_vec4(GltfFile& file, int accessor, const 
   return read_vectors<std::array<float, 4>>(file, accessor, TINYGLTF_TYPE_VEC4, user);
 }
 
+std::vector<Vec3f> read_colors(GltfFile& file, int accessor, const std::string& user) {
+  if (!is_index(accessor, file.model.accessors.size()) ||
+      file.model.accessors[accessor].type == TINYGLTF_TYPE_VEC3) {
+    return read_vec3(file, accessor, user);
+  }
+  std::vector<Vec3f> colors;
+  for (const auto& [r, g, b, a] : read_vec4(file, accessor, user)) colors.push_back({r, g, b});
+  return colors;
+}
+
 std::vector<std::uint32_t> read_indices(GltfFile& file, int accessor, const std::string& user) {
   return read<std::uint32_t>(file, accessor, TINYGLTF_TYPE_SCALAR, user);
 }

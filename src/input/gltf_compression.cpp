@@ -101,6 +101,27 @@ std::vector<Vector> draco_vectors(const GltfFile& file, const draco::Mesh& mesh,
   return vectors;
 }
 
+/// None where the attribute is no colour; its alpha is left out.
+std::vector<Vec3f> draco_colors(const draco::Mesh& mesh, int id) {
+  const draco::PointAttribute* attribute = mesh.GetAttributeByUniqueId(id);
+  if (!attribute || !is_attribute_type(attribute->data_type()) || attribute->num_components() < 3 ||
+      attribute->num_components() > 4) {
+    return {};
+  }
+  std::vector<Vec3f> colors;
+  colors.reserve(mesh.num_points());
+  for (std::uint32_t point = 0; point < mesh.num_points(); ++point) {
+    const auto index = attribute->mapped_index(draco::PointIndex(point));
+    std::array<float, 4> color{};
+    if (index.value() >= attribute->size() ||
+        !attribute->ConvertValue<float>(index, attribute->num_components(), color.data())) {
+      return {};
+    }
+    colors.push_back({color[0], color[1], color[2]});
+  }
+  return colors;
+}
+
 }  // namespace
 
 ByteSpan meshopt_bytes(GltfFile& file, int index) {
@@ -133,6 +154,7 @@ void decode_draco(const GltfFile& file, ByteSpan data, const DracoAttributes& at
     primitive.normals = draco_vectors<Vec3f>(file, mesh, attributes.normal, place);
   }
   if (attributes.uv >= 0) primitive.uvs = draco_vectors<Vec2f>(file, mesh, attributes.uv, place);
+  if (attributes.color >= 0) primitive.colors = draco_colors(mesh, attributes.color);
   primitive.triangles.reserve(mesh.num_faces());
   for (std::uint32_t i = 0; i < mesh.num_faces(); ++i) {
     const draco::Mesh::Face& face = mesh.face(draco::FaceIndex(i));

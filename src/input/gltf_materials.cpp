@@ -154,6 +154,10 @@ int MaterialReader::read_image(int index, const std::string& texture) {
     }
   }
   if (!reason.empty()) tree_.warnings.push_back(place + ": texture not read: " + reason);
+  if (is_index(index, file_.model.images.size())) {
+    const tinygltf::Image& source = file_.model.images[index];
+    image.name = source.uri.starts_with("data:") || source.uri.empty() ? source.name : source.uri;
+  }
   tree_.images.push_back(std::move(image));
   return entry->second;
 }

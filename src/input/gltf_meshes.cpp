@@ -12,11 +12,12 @@ namespace leafhull {
 
 GltfMeshes read_gltf_meshes(ByteSpan bytes, const std::string& name,
                             const std::optional<std::filesystem::path>& folder,
-                            const MeshVisitor& visit) {
+                            const MeshVisitor& visit, const MeshVisitor& survey) {
   GltfFile file = open_gltf(bytes, name, folder);
   GltfMeshes meshes;
   TreeModel& tree = meshes.tree;
   const std::set<int> placed = placed_meshes(file);
+  tree.nodes = node_table(file);
   MaterialReader materials(file, tree);
   materials.read_all();
   for (const int mesh : placed) {
@@ -29,9 +30,12 @@ GltfMeshes read_gltf_meshes(ByteSpan bytes, const std::string& name,
       tree.primitives.push_back(std::move(*primitive));
     }
   }
-  place_meshes(file, [&](const PlacedMesh& placed_mesh) {
-    if (meshes.primitives.contains(placed_mesh.mesh)) visit(meshes, placed_mesh);
-  });
+  for (const MeshVisitor* visitor : {&survey, &visit}) {
+    if (!*visitor) continue;
+    place_meshes(file, [&](const PlacedMesh& placed_mesh) {
+      if (meshes.primitives.contains(placed_mesh.mesh)) (*visitor)(meshes, placed_mesh);
+    });
+  }
   return meshes;
 }
 

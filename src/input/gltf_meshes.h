@@ -39,9 +39,10 @@ using MeshVisitor = std::function<void(const GltfMeshes& meshes, const PlacedMes
 
 /// Reads the meshes, then shows where they stand, one by one: millions need no memory. Nodes come
 /// in depth-first order. Arguments as of read_gltf.
+/// @param survey where it is given, is shown all of them first.
 /// @throws Error input.
 GltfMeshes read_gltf_meshes(ByteSpan bytes, const std::string& name,
                             const std::optional<std::filesystem::path>& folder,
-                            const MeshVisitor& visit);
+                            const MeshVisitor& visit, const MeshVisitor& survey = {});
 
 }  // namespace leafhull

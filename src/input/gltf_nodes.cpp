@@ -153,6 +153,27 @@ bool is_finite(const Transform& transform) {
   return true;
 }
 
+std::vector<Node> node_table(const GltfFile& file) {
+  const std::vector<tinygltf::Node>& nodes = file.model.nodes;
+  std::vector<Node> table(nodes.size());
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    table[i].name = nodes[i].name;
+    for (const int child : nodes[i].children) {
+      if (is_index(child, table.size())) table[child].parent = static_cast<int>(i);
+    }
+    const auto* levels = find_extension(nodes[i].extensions, "MSFT_lod");
+    if (!levels || !levels->Get("ids").IsArray()) continue;
+    const tinygltf::Value& ids = levels->Get("ids");
+    for (std::size_t level = 0; level < ids.ArrayLen(); ++level) {
+      const tinygltf::Value& id = ids.Get(static_cast<int>(level));
+      if (id.IsInt() && is_index(id.GetNumberAsInt(), table.size())) {
+        table[id.GetNumberAsInt()].level = static_cast<int>(level) + 1;
+      }
+    }
+  }
+  return table;
+}
+
 std::set<int> placed_meshes(const GltfFile& file) {
   std::set<int> meshes;
   walk(file, [&](int index, const tinygltf::Node& node, const Transform&) {

@@ -29,6 +29,9 @@ std::set<int> placed_meshes(const GltfFile& file);
 /// @throws Error input, as placed_meshes; the attributes of the copies.
 void place_meshes(GltfFile& file, const std::function<void(const PlacedMesh&)>& place);
 
+/// All nodes of the file by their numbers.
+std::vector<Node> node_table(const GltfFile& file);
+
 /// The cameras of the same nodes in the same order.
 /// @throws Error input: nodes that are not a tree, or a camera's transform that is not finite.
 std::vector<PlacedCamera> place_cameras(const GltfFile& file);

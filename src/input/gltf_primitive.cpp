@@ -8,6 +8,7 @@
 
 #include "input/gltf_accessor.h"
 #include "input/gltf_compression.h"
+#include "leafhull/error.h"
 
 namespace leafhull {
 namespace {
@@ -16,6 +17,8 @@ using Triangle = std::array<std::uint32_t, 3>;
 
 bool is_finite(Vec2f v) { return std::isfinite(v.x) && std::isfinite(v.y); }
 bool is_finite(Vec3f v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+bool is_color(Vec3f v) { return is_finite(v); }
 
 std::vector<Triangle> triangles_of(const std::vector<std::uint32_t>& vertices, int mode) {
   std::vector<Triangle> triangles;
@@ -61,11 +64,13 @@ void drop_unused_vertices(Primitive& primitive) {
     primitive.positions[kept] = primitive.positions[i];
     if (!primitive.normals.empty()) primitive.normals[kept] = primitive.normals[i];
     if (!primitive.uvs.empty()) primitive.uvs[kept] = primitive.uvs[i];
+    if (!primitive.colors.empty()) primitive.colors[kept] = primitive.colors[i];
     renumbered[i] = kept++;
   }
   primitive.positions.resize(kept);
   if (!primitive.normals.empty()) primitive.normals.resize(kept);
   if (!primitive.uvs.empty()) primitive.uvs.resize(kept);
+  if (!primitive.colors.empty()) primitive.colors.resize(kept);
   for (Triangle& triangle : primitive.triangles) {
     for (std::uint32_t& vertex : triangle) vertex = renumbered[vertex];
   }
@@ -94,7 +99,8 @@ class PrimitiveReader {
     const tinygltf::Value& ids = draco.Get("attributes");
     const DracoAttributes attributes{.position = integer(ids, "POSITION", -1),
                                      .normal = integer(ids, "NORMAL", -1),
-                                     .uv = integer(ids, uv_name, -1)};
+                                     .uv = integer(ids, uv_name, -1),
+                                     .color = integer(ids, "COLOR_0", -1)};
     if (attributes.position < 0) file_.fail(place, "has no POSITION");
     const ByteSpan data = view_bytes(file_, integer(draco, "bufferView", -1), place);
     decode_draco(file_, data, attributes, primitive, place);
@@ -107,6 +113,13 @@ class PrimitiveReader {
     }
     if (const int accessor = attribute(source_, uv_name); accessor >= 0) {
       primitive.uvs = read_vec2(file_, accessor, place_ + ", " + uv_name);
+    }
+    if (const int accessor = attribute(source_, "COLOR_0"); accessor >= 0) {
+      try {
+        primitive.colors = read_colors(file_, accessor, place_ + ", COLOR_0");
+      } catch (const Error& error) {  // a tree can do without
+        warnings_.push_back(std::string(error.what()) + "; the colours are passed over");
+      }
     }
     std::vector<std::uint32_t> vertices;
     if (source_.indices >= 0) {
@@ -122,7 +135,7 @@ class PrimitiveReader {
     primitive.triangles = triangles_of(vertices, source_.mode);
   }
 
-  void check(const Primitive& primitive) {
+  void check(Primitive& primitive) {
     const std::size_t count = primitive.positions.size();
     const auto bad =
         std::ranges::find_if_not(primitive.positions, [](Vec3f p) { return is_finite(p); });
@@ -142,6 +155,12 @@ class PrimitiveReader {
     }
     check_attribute(primitive.normals, count, "normals");
     check_attribute(primitive.uvs, count, "texture coordinates");
+    if (!primitive.colors.empty() &&
+        (primitive.colors.size() != count || !std::ranges::all_of(primitive.colors, is_color))) {
+      warnings_.push_back(place_ + ", COLOR_0: does not hold a finite colour for every vertex; " +
+                          "the colours are passed over");
+      primitive.colors.clear();
+    }
   }
 
   template <class Vector>

@@ -28,6 +28,7 @@ struct Corner {
 /// The faces of one object, group and material.
 struct Part {
   std::string mesh_name, node_name;
+  int node = -1;
   int material = -1;
   std::vector<Corner> corners{};
   std::vector<std::size_t> faces{};  // where each ends in `corners`
@@ -73,8 +74,17 @@ class Collector {
   }
 
   std::vector<Part> parts;
+  std::vector<Node> nodes;  ///< objects, and groups in them
 
  private:
+  /// The number of the node of that name in `parent`, which a nameless one stands for.
+  int node_of(int parent, const std::string& name) {
+    if (name.empty()) return parent;
+    const auto [entry, is_new] = node_numbers_.emplace(std::pair(parent, name), nodes.size());
+    if (is_new) nodes.push_back({name, parent});
+    return static_cast<int>(entry->second);
+  }
+
   static Collector& of(void* self) { return *static_cast<Collector*>(self); }
 
   void add_face(std::span<const tinyobj_double::index_t> corners) {
@@ -107,6 +117,7 @@ class Collector {
       if (is_new) {
         parts.push_back({.mesh_name = group_.empty() ? object_ : group_,
                          .node_name = object_.empty() ? group_ : object_,
+                         .node = node_of(node_of(-1, object_), group_),
                          .material = material_});
       }
       part_ = &parts[entry->second];
@@ -117,6 +128,7 @@ class Collector {
   const std::string& file_;
   ObjMaterials& materials_;
   std::map<std::tuple<std::string, std::string, int>, std::size_t> numbers_;
+  std::map<std::pair<int, std::string>, std::size_t> node_numbers_;
   std::string object_, group_;
   int material_ = -1;
   Part* part_ = nullptr;
@@ -174,6 +186,9 @@ class PrimitiveMaker {
       if (is_new) {
         primitive.positions.push_back(Vec3f(vertices_.positions[corner.position] - origin));
         if (has_normals) primitive.normals.push_back(vertices_.normals[corner.normal]);
+        if (!vertices_.colors.empty()) {
+          primitive.colors.push_back(vertices_.colors[corner.position]);
+        }
         if (has_uvs) primitive.uvs.push_back(image_uv(part.material, vertices_.uvs[corner.uv]));
       }
       return entry->second;
@@ -239,9 +254,10 @@ TreeModel read_obj(ByteSpan bytes, const std::filesystem::path& path) {
   for (const Part& part : obj.parts) {
     if (part.material >= 0) used[part.material] = true;
     tree.instances.push_back(
-        {static_cast<std::uint32_t>(tree.primitives.size()), part.node_name, to_world});
+        {static_cast<std::uint32_t>(tree.primitives.size()), part.node_name, to_world, part.node});
     tree.primitives.push_back(maker.make(part, origin));
   }
+  tree.nodes = std::move(obj.nodes);
   add_materials(materials, used, folder, tree);
   return tree;
 }

@@ -139,6 +139,7 @@ void add_materials(const ObjMaterials& from, const std::vector<bool>& used,
       Image mask = read_image(alpha, folder, tree.warnings);
       if (!mask.empty()) image = with_alpha(image, std::move(mask));
     }
+    image.name = color.empty() ? alpha : color;
     tree.images.push_back(std::move(image));
   }
 }

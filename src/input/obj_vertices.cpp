@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "colour/colour.h"
 #include "input/input_error.h"
 
 namespace leafhull {
@@ -47,6 +48,17 @@ Vec3d take_vec3(std::string_view& line) {
 
 bool is_blank(std::string_view line) { return take_word(line).empty(); }
 
+/// Red, green and blue after a position, which some programs write.
+void take_color(std::string_view line, ObjVertices& vertices) {
+  const Vec3d color = take_vec3(line);
+  const auto is_share = [](double x) { return x >= 0 && x <= 1; };
+  const bool is_color = is_share(color.x) && is_share(color.y) && is_share(color.z);
+  if (is_color && vertices.colors.size() + 1 == vertices.positions.size()) {
+    vertices.colors.push_back(
+        Vec3f(Vec3d(linear_of_srgb(color.x), linear_of_srgb(color.y), linear_of_srgb(color.z))));
+  }
+}
+
 Vec2d take_uv(std::string_view& line) {
   const double u = take_number(line);
   return {u, is_blank(line) ? 0 : take_number(line)};
@@ -69,6 +81,7 @@ ObjVertices read_obj_vertices(std::string_view text, const std::string& file,
                     in_quotes(line) + " is not a vertex of finite numbers", kRepairMesh);
       }
       vertices.positions.push_back(p);
+      take_color(rest, vertices);
     } else if (keyword == "vn" && !rest.empty()) {
       const Vec3d n = take_vec3(rest);
       bad_normals += std::isnan(n.x + n.y + n.z);
@@ -79,6 +92,7 @@ ObjVertices read_obj_vertices(std::string_view text, const std::string& file,
       vertices.uvs.push_back(uv);
     }
   }
+  if (vertices.colors.size() < vertices.positions.size()) vertices.colors.clear();
   if (bad_normals > 0) warnings.push_back("vn: " + std::string(kNotAllFinite));
   if (bad_uvs > 0) warnings.push_back("vt: " + std::string(kNotAllFinite));
   return vertices;

@@ -12,6 +12,7 @@ namespace leafhull {
 /// The v, vn and vt lines of an OBJ file.
 struct ObjVertices {
   std::vector<Vec3d> positions;
+  std::vector<Vec3f> colors;   ///< linear, of all positions, or none
   std::vector<Vec3f> normals;  ///< NaN where a line is not three numbers
   std::vector<Vec2d> uvs;      ///< NaN where a line is not one or two numbers
 };

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+
+#include "leafhull/vec.h"
+
+namespace leafhull {
+
+/// What 0 to 1 of sRGB stands for. Source: IEC 61966-2-1.
+double linear_of_srgb(double value);
+/// The same of 8 bits.
+float linear_of_srgb(std::uint8_t value);
+/// 0 to 1 of sRGB for a linear value, which is brought to 0..1.
+double srgb_of_linear(double value);
+
+/// Of what 8 bits stand for.
+Vec3f linear_of_srgb(const std::array<std::uint8_t, 3>& srgb);
+
+/// "#4a7a2c"
+std::string hex_of(Vec3f linear);
+std::string hex_of(const std::array<std::uint8_t, 3>& srgb);
+
+/// How a colour looks: hue in degrees from 0 (red, 120 is green) to 360, saturation and value from
+/// 0 to 1. Hue and saturation of a grey are 0.
+struct Hsv {
+  double hue = 0, saturation = 0, value = 0;
+};
+
+/// Of a linear colour, as sRGB shows it.
+Hsv hsv_of(Vec3f linear);
+
+/// Lightness, from 0 to 1, and two axes of hue; colours that look alike lie close, a distance of
+/// 0.02 is just seen. Source: Ottosson, "A perceptual color space for image processing", 2020.
+Vec3d oklab_of(Vec3f linear);
+
+}  // namespace leafhull
