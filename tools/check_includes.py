@@ -12,13 +12,15 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 
 # Room: the rooms it may include beside itself, and the third-party libraries it may know.
 ROOMS = {
-    "input": (("text",), ("tinygltf", "tinyobjloader", "json", "draco", "meshoptimizer", "stb")),
+    "colour": ((), ()),
+    "input": (("colour", "text"), ("tinygltf", "tinyobjloader", "json", "draco", "meshoptimizer", "stb")),
     "leaves": ((), ("eigen",)),
+    "foliage": (("colour", "leaves"), ("eigen",)),
     "points": (("leaves",), ("eigen", "tbb")),
     "density": ((), ("openvdb", "tbb")),
     "device": (("density",), ("opencl",)),
     "surface": (("density",), ("openvdb", "tbb")),
-    "output": (("density", "surface", "text"), ("tinygltf", "openvdb", "json")),
+    "output": (("colour", "density", "surface", "text"), ("tinygltf", "openvdb", "json")),
     "pipeline": (("density", "device", "points", "surface"), ("tbb",)),
     "text": ((), ()),
     "process": ((), ()),
@@ -30,12 +32,12 @@ ROOMS = {
     "page": (("chart", "output", "study", "text"), ("json", "meshoptimizer", "mustache")),
     "picture": (
         (
-            "density", "device", "leaves", "output", "pipeline", "process", "render", "surface",
+            "density", "device", "foliage", "output", "pipeline", "process", "render", "surface",
             "text", "watercolour",
         ),
         ("tbb",),
     ),
-    "scene": (("input", "text"), ("json", "stb")),
+    "scene": (("foliage", "input", "text"), ("json", "stb")),
     "ranks": ((), ("mpi",)),
     "forest": (
         ("density", "device", "output", "pipeline", "surface", "text"),

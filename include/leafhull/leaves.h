@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -19,8 +20,17 @@ struct TextureEllipse {
   Vec2d centre, a, b;
 };
 
+/// Of which colour leaves are, where names cannot tell.
+struct LeafColour {
+  std::array<std::uint8_t, 3> srgb{};
+  /// The largest distance in Oklab that is still this colour; 0: of two classes the nearer one.
+  double tolerance = 0;
+};
+
 struct LeafOptions {
-  std::vector<std::string> globs;         ///< empty: alpha mode and usual names decide
+  std::vector<std::string> globs;         ///< empty: evidence decides
+  std::vector<std::string> not_globs;     ///< what is not leaves, whatever else says so
+  std::optional<LeafColour> colour;       ///< of those, the triangles of this colour alone
   std::optional<TextureEllipse> ellipse;  ///< empty: the alpha texture, else the triangles
   double scale = 1;                       ///< multiplies R_u and R_v; > 0
 };
@@ -48,6 +58,7 @@ struct LeafPoint {
 
 /// The leaves as visible area; only leafhull's own stages look inside.
 struct LeafSheets;
+struct LeafChoice;
 
 struct LeafSet {
   std::vector<LeafVertex> vertices;  ///< in an order that depends on the geometry alone
@@ -65,33 +76,70 @@ struct LeafSet {
   /// crown units and resolutions count along. SPEC: 4.
   Box crown;
   std::size_t stray_leaves = 0;
+  std::shared_ptr<const LeafChoice> choice;  ///< how they were found
   std::vector<std::string> warnings;
 };
 
-/// How one primitive of a file looks to the choice of leaves.
-struct PrimitiveSummary {
-  std::string material, mesh, node;
-  AlphaMode alpha_mode = AlphaMode::opaque;
-  std::size_t instances = 0, vertices = 0, triangles = 0;
-  bool leaves = false;  ///< would be taken as leaves
+/// What speaks for something's being leaves, above 0, and against it: about the logarithms of odds.
+struct LeafEvidence {
+  double name = 0;    ///< words in the names of material, texture, mesh, node and its parents
+  double alpha = 0;   ///< holes in the texture where the triangles use it
+  double colour = 0;  ///< green, autumn and blossom against brown and grey
+  double shape = 0;   ///< small flat pieces and lobes against tubes and the ground
+  double place = 0;   ///< above against below
+  double total() const { return name + alpha + colour + shape + place; }
 };
 
-/// One row per primitive and distinct node name, in file order. SPEC: 1, "which primitives are
-/// leaves".
-std::vector<PrimitiveSummary> summarize(const TreeModel& tree, const LeafOptions& options);
+/// Why something is or is not taken as leaves.
+enum class LeafVerdict { leaves, other, coarser_level, undergrowth, minor, not_asked_for };
 
-/// Whether an instance would be taken as leaves. SPEC: 1.
-bool is_leaf(const TreeModel& tree, const Instance& instance, const LeafOptions& options);
+/// Something in a file that could be leaves: a primitive with its names, or a part of it that looks
+/// alike.
+struct LeafCandidate {
+  std::string material, mesh, node;  ///< or none
+  AlphaMode alpha_mode = AlphaMode::opaque;
+  std::string colour;    ///< "#rrggbb" in sRGB, mean of what is visible; or none
+  bool is_part = false;  ///< of a primitive that holds other things too
+  std::size_t instances = 0, vertices = 0, triangles = 0;
+  double area = 0;   ///< of all instances, one side, model units squared
+  std::string word;  ///< of the names, that told most
+  LeafEvidence evidence;
+  LeafVerdict verdict = LeafVerdict::other;
+};
+
+/// Which triangles of a tree are its leaves, and why.
+struct LeafChoice {
+  std::vector<bool> instances;               ///< whether any of its triangles are leaves
+  std::vector<std::vector<bool>> triangles;  ///< by primitive, those that are leaves; empty: all
+  std::vector<bool> cut_out;   ///< by material: the alpha of its image counts though it is opaque
+  std::vector<bool> left_out;  ///< by instance: a coarser level of what is there already
+  std::vector<LeafCandidate> candidates;  ///< the likeliest first
+  std::string told;                  ///< what was taken and what passed over, and why; one line
+  std::vector<std::string> options;  ///< those that would take the likeliest candidates
+  std::vector<std::string> warnings;
+
+  bool any() const;
+};
+
+/// Weighs what names, alpha, colour, shape and place say, or does as the options ask. SPEC: 1.
+/// @throws Error usage: an option is out of range.
+LeafChoice choose_leaves(const TreeModel& tree, std::span<const Instance> instances,
+                         const LeafOptions& options);
+inline LeafChoice choose_leaves(const TreeModel& tree, const LeafOptions& options) {
+  return choose_leaves(tree, tree.instances, options);
+}
 
 /// The leaves of a tree, one kernel frame at every leaf vertex. SPEC: 1; Source: Eqs. (5), (6),
 /// p. 51.
-/// @throws Error input where nothing matches (the names in the file are listed) or nothing is
-/// usable;
+/// @throws Error input where there are none (the file's names are listed) or nothing is usable;
 ///         usage where an option is out of range.
 LeafSet find_leaves(const TreeModel& tree, const LeafOptions& options);
 
-/// The same of some instances of the tree's primitives, which need not be its own.
+/// The same, chosen before.
+LeafSet find_leaves(const TreeModel& tree, const LeafChoice& choice, const LeafOptions& options);
+
+/// The same of some instances of the tree's primitives, which need not be its own, chosen before.
 LeafSet find_leaves(const TreeModel& tree, std::span<const Instance> instances,
-                    const LeafOptions& options);
+                    const LeafChoice& choice, const LeafOptions& options);
 
 }  // namespace leafhull

@@ -30,7 +30,8 @@ enum class Preset { paper_32, paper_64, paper_128, draft, standard, fine, ultra,
 /// `resolve` fills it in. Ranges, units and defaults stand in `option_table()`.
 struct Options {
   // Leaves
-  std::vector<std::string> leaves;
+  std::vector<std::string> leaves, not_leaves;
+  std::optional<LeafColour> leaves_colour;
   std::optional<TextureEllipse> ellipse;
   double leaf_scale = 1;
 
@@ -64,7 +65,9 @@ struct Options {
   Mesher mesher = Mesher::vdb;
   double adaptivity = 0;  ///< of Mesher::vdb alone
 
-  LeafOptions leaf_options() const { return {leaves, ellipse, leaf_scale}; }
+  LeafOptions leaf_options() const {
+    return {leaves, not_leaves, leaves_colour, ellipse, leaf_scale};
+  }
 };
 
 /// The names of an enumeration's values, in order.
@@ -106,7 +109,7 @@ struct OptionRow {
                    std::optional<PointSource> Options::*, Spread Options::*,
                    DensitySource Options::*, std::optional<Hollows> Options::*, Mesher Options::*,
                    std::optional<Preset> Options::*, std::vector<std::string> Options::*,
-                   std::optional<TextureEllipse> Options::*>;
+                   std::optional<TextureEllipse> Options::*, std::optional<LeafColour> Options::*>;
 
   /// As in the flag --name and, with underscores, in the report. What is on by default has the
   /// flag --no-name.

@@ -23,7 +23,8 @@ struct SceneModel {
   std::string mesh;            ///< of a glTF scene: its mesh
   /// Of a glTF scene: the meshes of its models, which share them and their images. Else empty.
   std::shared_ptr<const TreeModel> meshes;
-  std::vector<Instance> instances;  ///< of `meshes`: the mesh's primitives, at the origin
+  std::vector<Instance> instances;           ///< of `meshes`: the mesh's leaves, at the origin
+  std::shared_ptr<const LeafChoice> choice;  ///< of the triangles and materials of `meshes`
 };
 
 /// A tree in the scene: x' = linear x + position.

@@ -172,6 +172,7 @@ void run_extract(const Arguments& arguments) {
     return stages.run("leaves", [&] { return find_leaves(tree, options.leaf_options()); });
   }();
   warn(leaves.warnings);
+  console.say(leaves.choice->told);
   Device device = stages.run("device", [&] { return opening.get(); });
   Shape shape = extract(leaves, options, device, [&](std::string_view stage, double done) {
     console.progress(stage, done);

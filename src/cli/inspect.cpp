@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
 #include <iostream>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <tuple>
 
 #include "cli/console.h"
 #include "cli/table.h"
@@ -15,7 +20,7 @@
 namespace leafhull::cli {
 namespace {
 
-constexpr std::size_t kGuesses = 3;
+constexpr std::size_t kMostRows = 30;
 
 std::string_view name_of(AlphaMode mode) {
   constexpr std::string_view kNames[] = {"opaque", "mask", "blend"};
@@ -30,66 +35,97 @@ std::string printable(std::string name) {
   return name;
 }
 
-/// A glob that matches `name`: what would be special in it matches any character.
-std::string glob_of(const std::string& name) {
-  std::string glob = printable(name);
-  for (char& c : glob) {
-    if (std::string_view("*?[]\\").find(c) != std::string_view::npos) c = '?';
-  }
-  return glob;
+std::string_view name_of(LeafVerdict verdict) {
+  constexpr std::string_view kNames[] = {"leaves",      "no",    "coarser level",
+                                         "undergrowth", "minor", "not asked for"};
+  return kNames[static_cast<std::size_t>(verdict)];
 }
 
-std::string first_named(const PrimitiveSummary& row) {
-  for (const std::string& name : {row.material, row.mesh, row.node}) {
-    if (!name.empty()) return name;
-  }
-  return {};
+/// As --leaves-colour takes it.
+std::string text_of(const LeafColour& colour) {
+  std::array<char, 8> hex{};
+  std::snprintf(hex.data(), hex.size(), "#%02x%02x%02x", unsigned{colour.srgb[0]},
+                unsigned{colour.srgb[1]}, unsigned{colour.srgb[2]});
+  const std::string tolerance = colour.tolerance > 0 ? ',' + number(colour.tolerance, 3) : "";
+  return hex.data() + tolerance;
 }
 
-/// Where nothing looks like leaves: the names with the most triangles, which leaves usually are.
-std::vector<std::string> likely_leaves(std::vector<PrimitiveSummary> rows) {
-  std::stable_sort(rows.begin(), rows.end(), [](const auto& a, const auto& b) {
-    return a.triangles * a.instances > b.triangles * b.instances;
-  });
-  std::vector<std::string> globs;
-  for (const PrimitiveSummary& row : rows) {
-    const std::string glob = glob_of(first_named(row));
-    if (!glob.empty() && std::find(globs.begin(), globs.end(), glob) == globs.end()) {
-      globs.push_back(glob);
-    }
-    if (globs.size() == kGuesses) break;
-  }
-  return globs.empty() ? std::vector<std::string>{"*"} : globs;
-}
-
-std::vector<std::string> suggestions(const Arguments& arguments,
-                                     const std::vector<PrimitiveSummary>& rows, bool found) {
+std::vector<std::string> suggestions(const Arguments& arguments, const LeafChoice& choice) {
   const std::string tree = quoted(arguments.tree.string());
-  if (!found) {
+  if (!choice.any()) {
     std::vector<std::string> lines;
-    for (const std::string& glob : likely_leaves(rows)) {
-      lines.push_back("leafhull inspect " + tree + " --leaves " + quoted(glob));
+    for (const std::string& option : choice.options) {
+      lines.push_back("leafhull inspect " + tree + " " + option);
     }
     return lines;
   }
   std::string leaves;
   for (const std::string& glob : arguments.options.leaves) leaves += " --leaves " + quoted(glob);
+  for (const std::string& glob : arguments.options.not_leaves) {
+    leaves += " --not-leaves " + quoted(glob);
+  }
+  if (const auto& colour = arguments.options.leaves_colour) {
+    leaves += " --leaves-colour " + quoted(text_of(*colour));
+  }
   const std::string extract = "leafhull extract " + tree + leaves;
   const std::string stem = arguments.tree.stem().string();
   return {extract + " -o " + quoted(stem + "-shape.glb") + " --preset draft",
           extract + " -o " + quoted(stem + "-shape.glb") + " --preset fine",
-          extract + " -o " + quoted(stem + "-thin.glb") + " --style thin --threshold 40%"};
+          extract + " -o " + quoted(stem + "-thin.glb") + " --style thin"};
 }
 
-void print_primitives(const std::vector<PrimitiveSummary>& rows) {
-  std::vector<std::vector<std::string>> lines = {
-      {"material", "mesh", "node", "alpha", "instances", "vertices", "triangles", "leaf"}};
-  for (const PrimitiveSummary& row : rows) {
-    lines.push_back({printable(row.material), printable(row.mesh), printable(row.node),
-                     std::string(name_of(row.alpha_mode)), count(row.instances),
-                     count(row.vertices), count(row.triangles), row.leaves ? "yes" : "no"});
+/// Candidates that are one thing to a reader: of one material, or one mesh or node without one.
+struct Row {
+  const LeafCandidate* first = nullptr;
+  std::size_t candidates = 0, instances = 0, triangles = 0;
+  double area = 0;
+};
+
+/// The likeliest first, as the candidates come.
+std::vector<Row> rows_of(const std::vector<LeafCandidate>& candidates) {
+  using Key = std::tuple<std::string, std::string, std::string, LeafVerdict>;
+  std::map<Key, std::size_t> known;
+  std::vector<Row> rows;
+  for (const LeafCandidate& candidate : candidates) {
+    const bool is_alone = candidate.material.empty();
+    const Key key{candidate.material, is_alone ? candidate.mesh : "",
+                  is_alone && candidate.mesh.empty() ? candidate.node : "", candidate.verdict};
+    const auto [entry, is_new] = known.try_emplace(key, rows.size());
+    if (is_new) rows.push_back({.first = &candidate});
+    Row& row = rows[entry->second];
+    ++row.candidates;
+    row.instances += candidate.instances;
+    row.triangles += candidate.triangles * candidate.instances;
+    row.area += candidate.area;
+  }
+  return rows;
+}
+
+std::string weight(double value) {
+  if (std::abs(value) < 0.05) return "";
+  return (value > 0 ? "+" : "") + number(value, 2);
+}
+
+void print_candidates(const LeafChoice& choice) {
+  std::vector<std::vector<std::string>> lines = {{"leaves", "material", "mesh", "colour", "alpha",
+                                                  "triangles", "name", "holes", "colour", "shape",
+                                                  "place", "sum"}};
+  const std::vector<Row> rows = rows_of(choice.candidates);
+  for (std::size_t i = 0; i < std::min(rows.size(), kMostRows); ++i) {
+    const LeafCandidate& c = *rows[i].first;
+    const LeafEvidence& e = c.evidence;
+    const std::string mesh = c.mesh.empty() ? c.node : c.mesh;
+    const std::string more =
+        rows[i].candidates > 1 ? " and " + std::to_string(rows[i].candidates - 1) + " more" : "";
+    lines.push_back({std::string(name_of(c.verdict)), printable(c.material), printable(mesh) + more,
+                     c.colour, std::string(name_of(c.alpha_mode)), count(rows[i].triangles),
+                     weight(e.name), weight(e.alpha), weight(e.colour), weight(e.shape),
+                     weight(e.place), weight(e.total())});
   }
   std::cout << table(lines);
+  if (rows.size() > kMostRows) {
+    std::cout << "and " << count(rows.size() - kMostRows) << " more, all of them with --json\n";
+  }
 }
 
 std::string text(Vec3d p) { return number(p.x, 5) + " " + number(p.y, 5) + " " + number(p.z, 5); }
@@ -106,9 +142,9 @@ void print_fact(std::string label, const std::string& value) {
   std::cout << label << value << '\n';
 }
 
-void print_leaves(const LeafSet& leaves) {
+void print_leaves(const LeafSet& leaves, const LeafChoice& choice) {
   const double crown_unit = leaves.crown.longest_side() / kCrownUnits;
-  std::cout << '\n';
+  std::cout << '\n' << printable(choice.told) << '\n';
   print_fact("leaves", count(leaves.leaf_count));
   print_fact("leaf vertices", count(leaves.vertices.size()));
   print_fact("dropped leaves", count(leaves.dropped_leaves));
@@ -141,21 +177,37 @@ Json json(const LeafSet& leaves) {
           {"crown_unit", leaves.crown.longest_side() / kCrownUnits}};
 }
 
-void print_json(const Arguments& arguments, const std::vector<PrimitiveSummary>& rows,
+Json json(const LeafCandidate& candidate) {
+  const LeafEvidence& evidence = candidate.evidence;
+  return {{"material", candidate.material},
+          {"mesh", candidate.mesh},
+          {"node", candidate.node},
+          {"alpha_mode", name_of(candidate.alpha_mode)},
+          {"colour", candidate.colour.empty() ? Json() : Json(candidate.colour)},
+          {"is_part", candidate.is_part},
+          {"instances", candidate.instances},
+          {"vertices", candidate.vertices},
+          {"triangles", candidate.triangles},
+          {"area", candidate.area},
+          {"word", candidate.word},
+          {"evidence",
+           {{"name", evidence.name},
+            {"holes", evidence.alpha},
+            {"colour", evidence.colour},
+            {"shape", evidence.shape},
+            {"place", evidence.place},
+            {"sum", evidence.total()}}},
+          {"verdict", name_of(candidate.verdict)},
+          {"leaves", candidate.verdict == LeafVerdict::leaves}};
+}
+
+void print_json(const Arguments& arguments, const LeafChoice& choice,
                 const std::optional<LeafSet>& leaves, const std::vector<std::string>& commands) {
-  Json primitives = Json::array();
-  for (const PrimitiveSummary& row : rows) {
-    primitives.push_back({{"material", row.material},
-                          {"mesh", row.mesh},
-                          {"node", row.node},
-                          {"alpha_mode", name_of(row.alpha_mode)},
-                          {"instances", row.instances},
-                          {"vertices", row.vertices},
-                          {"triangles", row.triangles},
-                          {"leaves", row.leaves}});
-  }
+  Json candidates = Json::array();
+  for (const LeafCandidate& candidate : choice.candidates) candidates.push_back(json(candidate));
   const Json page = {{"input", arguments.tree.string()},
-                     {"primitives", primitives},
+                     {"candidates", candidates},
+                     {"chosen", choice.told},
                      {"leaves", leaves ? json(*leaves) : Json()},
                      {"suggestions", commands}};
   // Names come from the file and need not be UTF-8.
@@ -168,28 +220,27 @@ void run_inspect(const Arguments& arguments) {
   console.progress("read", 0);
   const TreeModel tree = read_tree(arguments.tree);
   for (const std::string& warning : tree.warnings) console.warn(warning);
-  const std::vector<PrimitiveSummary> rows = summarize(tree, options);
-
+  console.progress("leaves", 0);
+  const LeafChoice choice = choose_leaves(tree, options);
   std::optional<LeafSet> leaves;
   std::optional<Error> failure;
   try {
-    console.progress("leaves", 0);
-    leaves = find_leaves(tree, options);
+    leaves = find_leaves(tree, choice, options);
   } catch (const Error& error) {
     if (error.code() != ErrorCode::input) throw;
     failure = error;  // the list is printed all the same
   }
   clear_progress();
-  if (leaves) {
-    for (const std::string& warning : leaves->warnings) console.warn(warning);
+  for (const std::string& warning : leaves ? leaves->warnings : choice.warnings) {
+    console.warn(warning);
   }
 
-  const std::vector<std::string> commands = suggestions(arguments, rows, leaves.has_value());
+  const std::vector<std::string> commands = suggestions(arguments, choice);
   if (arguments.json) {
-    print_json(arguments, rows, leaves, commands);
+    print_json(arguments, choice, leaves, commands);
   } else {
-    print_primitives(rows);
-    if (leaves) print_leaves(*leaves);
+    print_candidates(choice);
+    if (leaves) print_leaves(*leaves, choice);
     std::cout << "\nTry\n";
     for (const std::string& command : commands) std::cout << "  " << command << '\n';
   }

@@ -80,6 +80,24 @@ void assign(TextureEllipse& value, std::string_view flag, const std::string& tex
   value = {{n[0], n[1]}, {n[2], n[3]}, {n[4], n[5]}};
 }
 
+void assign(LeafColour& value, std::string_view flag, const std::string& text) {
+  constexpr std::string_view kDigits = "0123456789abcdefABCDEF";
+  const std::string hex = text.substr(0, text.find(','));
+  if (hex.size() != 7 || hex[0] != '#' || hex.find_first_not_of(kDigits, 1) != hex.npos) {
+    refuse(flag, text, "is not a colour",
+           "Give it as '#rrggbb', or with a tolerance '#rrggbb,0.1'.");
+  }
+  const auto channel = [&](std::size_t at) {
+    return static_cast<std::uint8_t>(std::stoul(hex.substr(at, 2), nullptr, 16));
+  };
+  value.srgb = {channel(1), channel(3), channel(5)};
+  if (hex.size() == text.size()) return;
+  value.tolerance = real_number(flag, std::string_view(text).substr(hex.size() + 1));
+  if (!(value.tolerance > 0)) {
+    refuse(flag, text, "has a tolerance that is not positive", "Distances in Oklab are 0.02 to 1.");
+  }
+}
+
 template <class Value>
 void assign(std::optional<Value>& value, std::string_view flag, const std::string& text) {
   assign(value.emplace(), flag, text);

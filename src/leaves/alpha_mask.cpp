@@ -7,6 +7,7 @@
 #include <span>
 
 #include "leaves/convex_polygon.h"
+#include "leaves/texels.h"
 
 namespace leafhull {
 namespace {
@@ -14,14 +15,6 @@ namespace {
 constexpr double kBlendCutoff = 0.5;
 // A box that repeats the image beyond this is no picture of one leaf.
 constexpr double kMostTexels = 1 << 26;
-
-/// The texel that stands at `i` beside an image of `size` texels.
-std::int64_t wrapped(std::int64_t i, std::int64_t size, Wrap wrap) {
-  if (wrap == Wrap::clamp) return std::clamp<std::int64_t>(i, 0, size - 1);
-  const std::int64_t period = wrap == Wrap::mirror ? 2 * size : size;
-  const std::int64_t phase = (i % period + period) % period;
-  return phase < size ? phase : period - 1 - phase;
-}
 
 /// Between where a polygon in a row of texels has both the row's top and its bottom: texels there
 /// lie whole in it.
@@ -75,8 +68,10 @@ AlphaMask::AlphaMask(const Material& material, const Image& image)
   }
 }
 
-std::optional<AlphaMask> AlphaMask::of(const Material& material, const std::vector<Image>& images) {
-  if (material.alpha_mode == AlphaMode::opaque || material.base_color_image < 0) return {};
+std::optional<AlphaMask> AlphaMask::of(const Material& material, const std::vector<Image>& images,
+                                       bool cut_out) {
+  const bool is_opaque = material.alpha_mode == AlphaMode::opaque && !cut_out;
+  if (is_opaque || material.base_color_image < 0) return {};
   const Image& image = images[material.base_color_image];
   if (image.empty()) return {};
   AlphaMask mask(material, image);

@@ -25,8 +25,10 @@ struct KeptPart {
 /// The part of a material's texture that is not cut away: alpha at or above the cutoff.
 class AlphaMask {
  public:
-  /// Nothing where the material is opaque, its image is missing, or no texel is cut away.
-  static std::optional<AlphaMask> of(const Material& material, const std::vector<Image>& images);
+  /// Nothing where the material is opaque and not `cut_out`, its image is missing, or no texel is
+  /// cut away.
+  static std::optional<AlphaMask> of(const Material& material, const std::vector<Image>& images,
+                                     bool cut_out = false);
 
   /// Whether any texel is kept.
   bool keeps_any() const { return kept_count_ > 0; }

@@ -87,6 +87,30 @@ bool is_smooth(const LeafMesh& leaf, const EdgeSide& a, const EdgeSide& b) {
   return -cosine >= kCosSharp || cosine >= kCosDoubled;
 }
 
+/// The distinct positions, ascending, and which of them each vertex has.
+std::vector<std::uint32_t> weld_positions(const Primitive& primitive,
+                                          std::vector<Vec3f>& positions) {
+  struct Stored {
+    Vec3f position;
+    std::uint32_t vertex;
+    auto key() const { return std::tie(position.x, position.y, position.z); }
+  };
+  std::vector<Stored> stored;
+  stored.reserve(primitive.positions.size());
+  // Adding zero turns -0 into 0, so that what is equal has equal bits.
+  for (const Vec3f& p : primitive.positions) {
+    stored.push_back({p + Vec3f(0, 0, 0), static_cast<std::uint32_t>(stored.size())});
+  }
+  std::ranges::sort(stored, [](const Stored& a, const Stored& b) { return a.key() < b.key(); });
+
+  std::vector<std::uint32_t> welded(stored.size());
+  for (const Stored& s : stored) {
+    if (positions.empty() || positions.back() != s.position) positions.push_back(s.position);
+    welded[s.vertex] = static_cast<std::uint32_t>(positions.size() - 1);
+  }
+  return welded;
+}
+
 }  // namespace
 
 FaceGroups::FaceGroups(std::span<const Face> faces, std::span<const std::uint32_t> labels)
@@ -101,34 +125,37 @@ FaceGroups::FaceGroups(std::span<const Face> faces, std::span<const std::uint32_
   for (std::size_t i = 0; i < faces.size(); ++i) faces_[next[labels[i]]++] = faces[i];
 }
 
-WeldedMesh weld(const Primitive& primitive) {
-  struct Stored {
-    Vec3f position;
-    std::uint32_t vertex;
-    auto key() const { return std::tie(position.x, position.y, position.z); }
-  };
-  std::vector<Stored> stored;
-  stored.reserve(primitive.positions.size());
-  // Adding zero turns -0 into 0, so that what is equal has equal bits.
-  for (const Vec3f& p : primitive.positions) {
-    stored.push_back({p + Vec3f(0, 0, 0), static_cast<std::uint32_t>(stored.size())});
-  }
-  std::ranges::sort(stored, [](const Stored& a, const Stored& b) { return a.key() < b.key(); });
-
+WeldedMesh weld(const Primitive& primitive, const std::vector<bool>& triangles) {
   WeldedMesh mesh;
-  std::vector<std::uint32_t> welded(stored.size());
-  for (const Stored& s : stored) {
-    if (mesh.positions.empty() || mesh.positions.back() != s.position) {
-      mesh.positions.push_back(s.position);
-    }
-    welded[s.vertex] = static_cast<std::uint32_t>(mesh.positions.size() - 1);
-  }
+  const std::vector<std::uint32_t> welded = weld_positions(primitive, mesh.positions);
   mesh.faces.reserve(primitive.triangles.size());
-  for (const auto& [a, b, c] : primitive.triangles) {
+  for (std::size_t t = 0; t < primitive.triangles.size(); ++t) {
+    if (!triangles.empty() && !triangles[t]) continue;
+    const auto [a, b, c] = primitive.triangles[t];
     mesh.faces.push_back(least_rotation({{welded[a], welded[b], welded[c]}, {a, b, c}}));
   }
   std::ranges::sort(mesh.faces, {}, &Face::position);
   return mesh;
+}
+
+std::vector<std::uint32_t> label_pieces(const Primitive& primitive) {
+  std::vector<Vec3f> positions;
+  const std::vector<std::uint32_t> welded = weld_positions(primitive, positions);
+  DisjointSets sets(positions.size());
+  for (const auto& [a, b, c] : primitive.triangles) {
+    sets.unite(welded[a], welded[b]);
+    sets.unite(welded[a], welded[c]);
+  }
+  constexpr std::uint32_t kNone = ~0u;
+  std::vector<std::uint32_t> number(positions.size(), kNone), labels;
+  labels.reserve(primitive.triangles.size());
+  std::uint32_t count = 0;
+  for (const auto& triangle : primitive.triangles) {
+    std::uint32_t& label = number[sets.find(welded[triangle[0]])];
+    if (label == kNone) label = count++;
+    labels.push_back(label);
+  }
+  return labels;
 }
 
 FaceGroups connected_components(const WeldedMesh& mesh) {

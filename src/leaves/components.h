@@ -43,7 +43,12 @@ struct WeldedMesh {
   std::vector<Face> faces;       ///< ascending by position
 };
 
-WeldedMesh weld(const Primitive& primitive);
+/// Of those triangles of the primitive, or of all where `triangles` is empty.
+WeldedMesh weld(const Primitive& primitive, const std::vector<bool>& triangles = {});
+
+/// Of each triangle of a primitive, which piece it belongs to: what hangs together by its vertices,
+/// numbered as the file has them.
+std::vector<std::uint32_t> label_pieces(const Primitive& primitive);
 
 /// Triangles that hang together by their vertices.
 FaceGroups connected_components(const WeldedMesh& mesh);

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <map>
 #include <memory>
+#include <numeric>
 #include <optional>
 #include <string>
 
@@ -16,7 +17,6 @@
 #include "leaves/leaf_mesh.h"
 #include "leaves/order.h"
 #include "leaves/placement.h"
-#include "leaves/selection.h"
 #include "leaves/sheets.h"
 
 namespace leafhull {
@@ -44,8 +44,9 @@ constexpr std::size_t kFewestFacesOfSolid = 8;
 /// Takes the leaves of one placed primitive after the other.
 class LeafCollector {
  public:
-  LeafCollector(const TreeModel& tree, const LeafOptions& options, LeafSet& leaves)
-      : tree_(tree), options_(options), leaves_(leaves) {}
+  LeafCollector(const TreeModel& tree, const LeafChoice& choice, const LeafOptions& options,
+                LeafSet& leaves)
+      : tree_(tree), choice_(choice), options_(options), leaves_(leaves) {}
 
   /// Places `mesh`, which is `primitive` welded, and takes its components.
   void take(const Primitive& primitive, const WeldedMesh& mesh, const FaceGroups& components,
@@ -73,13 +74,15 @@ class LeafCollector {
     TextureSource source{primitive.uvs, options_.ellipse, nullptr};
     if (primitive.material < 0) return source;
     const auto [known, is_new] = masks_.try_emplace(primitive.material);
-    if (is_new) known->second = mask_of(tree_.materials[primitive.material]);
+    if (is_new) known->second = mask_of(static_cast<std::size_t>(primitive.material));
     source.mask = known->second;
     return source;
   }
 
-  std::shared_ptr<AlphaMask> mask_of(const Material& material) {
-    std::optional<AlphaMask> mask = AlphaMask::of(material, tree_.images);
+  std::shared_ptr<AlphaMask> mask_of(std::size_t number) {
+    const Material& material = tree_.materials[number];
+    const bool cut_out = number < choice_.cut_out.size() && choice_.cut_out[number];
+    std::optional<AlphaMask> mask = AlphaMask::of(material, tree_.images, cut_out);
     if (!mask) return nullptr;
     if (!mask->keeps_any()) {
       hidden_.push_back(material.name);
@@ -179,6 +182,7 @@ class LeafCollector {
   }
 
   const TreeModel& tree_;
+  const LeafChoice& choice_;
   const LeafOptions& options_;
   LeafSet& leaves_;
   LeafMesh mesh_;
@@ -221,22 +225,22 @@ double mean_radius_major(const LeafSet& leaves) {
 
 }  // namespace
 
-LeafSet find_leaves(const TreeModel& tree, const LeafOptions& options) {
-  return find_leaves(tree, tree.instances, options);
-}
-
 LeafSet find_leaves(const TreeModel& tree, std::span<const Instance> instances,
-                    const LeafOptions& options) {
+                    const LeafChoice& choice, const LeafOptions& options) {
   check(options);
   LeafSet leaves;
-  const std::vector<std::uint32_t> selected =
-      select_leaves(tree, instances, options, leaves.warnings);
+  leaves.choice = std::make_shared<const LeafChoice>(choice);
+  leaves.warnings = choice.warnings;
+  std::vector<std::uint32_t> selected(instances.size());
+  std::iota(selected.begin(), selected.end(), 0u);
+  std::erase_if(selected, [&](std::uint32_t i) { return !choice.instances[i]; });
+  std::ranges::stable_sort(selected, {}, [&](auto i) { return instances[i].primitive; });
 
-  LeafCollector collector(tree, options, leaves);
+  LeafCollector collector(tree, choice, options, leaves);
   for (auto first = selected.begin(); first != selected.end();) {
     const std::uint32_t index = instances[*first].primitive;
     const Primitive& primitive = tree.primitives[index];
-    const WeldedMesh mesh = weld(primitive);
+    const WeldedMesh mesh = weld(primitive, choice.triangles[index]);
     const FaceGroups components = connected_components(mesh);
     for (; first != selected.end() && instances[*first].primitive == index; ++first) {
       collector.take(primitive, mesh, components, instances[*first].to_world);

@@ -10,6 +10,7 @@
 #include <variant>
 #include <vector>
 
+#include "colour/colour.h"
 #include "leafhull/options.h"
 #include "leafhull/output.h"
 #include "leafhull/version.h"
@@ -28,6 +29,11 @@ std::string to_key(std::string_view name) {
 
 Json to_json_value(const TextureEllipse& ellipse) {
   return {ellipse.centre.x, ellipse.centre.y, ellipse.a.x, ellipse.a.y, ellipse.b.x, ellipse.b.y};
+}
+
+Json to_json_value(const LeafColour& colour) {
+  const std::string text = hex_of(colour.srgb);
+  return colour.tolerance > 0 ? Json{text, colour.tolerance} : Json(text);
 }
 
 template <class Value>

@@ -5,9 +5,9 @@
 #include <string>
 #include <utility>
 
+#include "foliage/rest.h"
 #include "leafhull/error.h"
 #include "leafhull/render.h"
-#include "leaves/selection.h"
 #include "picture/parts.h"
 #include "pipeline/finish_mesh.h"
 #include "pipeline/thread_limit.h"
@@ -58,22 +58,6 @@ Subject finish(std::shared_ptr<Parts> parts, const Surfaces& surfaces) {
   return Subject(std::move(parts));
 }
 
-/// All of a tree that is no leaf.
-std::vector<const Instance*> wood_of(const TreeModel& tree, const LeafOptions& options) {
-  std::vector<std::string> warnings;  // find_leaves has told them
-  std::vector<bool> is_leaf(tree.instances.size());
-  for (const std::uint32_t leaf : select_leaves(tree, tree.instances, options, warnings))
-    is_leaf[leaf] = true;
-  std::vector<const Instance*> wood;
-  for (std::size_t i = 0; i < tree.instances.size(); ++i) {
-    const Instance& instance = tree.instances[i];
-    if (!is_leaf[i] && !tree.primitives[instance.primitive].triangles.empty()) {
-      wood.push_back(&instance);
-    }
-  }
-  return wood;
-}
-
 /// One for each leaf, in the middle of its vertices and by its place in the file: nothing of it
 /// depends on how a moving tree sorts its leaves.
 std::vector<LeafCard> cards_of(const LeafSet& leaves, const render::Placement& placement) {
@@ -118,7 +102,8 @@ Subject tree_subject(std::shared_ptr<const TreeModel> tree, const LeafSet& leave
                      const Progress& progress, const Frame& frame) {
   const ThreadLimit limit(device);
   const auto parts = std::make_shared<Parts>();
-  parts->model = std::move(tree);
+  const Rest wood = rest_of(std::move(tree), *leaves.choice);
+  parts->model = wood.model;
   std::shared_ptr<const DirectSurface> direct;
   if (surfacing == Surfacing::direct) {
     direct = std::make_shared<const DirectSurface>(leaves, options, device, progress);
@@ -129,12 +114,11 @@ Subject tree_subject(std::shared_ptr<const TreeModel> tree, const LeafSet& leave
     parts->report = std::move(shape.report);
   }
 
-  const std::vector<const Instance*> wood = wood_of(*parts->model, options.leaf_options());
   Frame all = frame;
   if (all.points.empty()) {
     all = frame_of(leaves, parts->report.radius_max_model);
-    for (const Instance* instance : wood) {
-      const std::vector<Vec3d> points = render::world_positions(*parts->model, *instance);
+    for (const Instance& instance : wood.instances) {
+      const std::vector<Vec3d> points = render::world_positions(*parts->model, instance);
       all.points.insert(all.points.end(), points.begin(), points.end());
     }
   }
@@ -143,8 +127,8 @@ Subject tree_subject(std::shared_ptr<const TreeModel> tree, const LeafSet& leave
 
   parts->embree = render::open_embree();
   Surfaces surfaces;
-  for (const Instance* instance : wood) {
-    surfaces.push_back(render::make_surface(parts->embree.get(), *parts->model, *instance,
+  for (const Instance& instance : wood.instances) {
+    surfaces.push_back(render::make_surface(parts->embree.get(), *parts->model, instance,
                                             render::Look::wood, parts->placement));
   }
   if (direct) {

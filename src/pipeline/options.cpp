@@ -108,6 +108,12 @@ void check(const OptionRow& row, const TextureEllipse& ellipse) {
   }
 }
 
+void check(const OptionRow& row, const LeafColour& colour) {
+  if (!(colour.tolerance >= 0) || !std::isfinite(colour.tolerance)) {
+    refuse(flag(row) + " has a tolerance that is negative", "Distances in Oklab are 0.02 to 1.");
+  }
+}
+
 template <class Enum>
 requires std::is_enum_v<Enum>
 void check(const OptionRow& row, Enum value) {

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "foliage/words.h"
 #include "input/file_bytes.h"
 #include "input/gltf_meshes.h"
 #include "input/input_error.h"
@@ -39,13 +40,28 @@ PlacedTree to_tree(const Transform& to_world) {
   return tree;
 }
 
-/// Takes the placed meshes of a file, one after the other, for trees.
+/// Takes the placed meshes of a file, one after the other, for trees: first a look at all of them,
+/// which tells what leaves are, then each.
 class TreeCollector {
  public:
   TreeCollector(SceneBuilder& builder, const LeafOptions& leaves)
       : builder_(builder), leaves_(leaves) {}
 
+  /// The copies of a node are alike.
+  void survey(const GltfMeshes& meshes, const PlacedMesh& placed) {
+    if (placed.copy.value_or(0) != 0) return;
+    nodes_[placed.node] = instances_.size();
+    for (const std::uint32_t primitive : meshes.primitives.at(placed.mesh)) {
+      instances_.push_back({primitive, placed.node_name, placed.to_world, placed.node});
+    }
+  }
+
   void take(const GltfMeshes& meshes, const PlacedMesh& placed) {
+    if (!choice_) {
+      choice_ = std::make_shared<LeafChoice>(choose_leaves(meshes.tree, instances_, leaves_));
+      for (const std::string& warning : choice_->warnings) builder_.warn(warning);
+      choice_->warnings.clear();
+    }
     if (placed.node != node_) look_at(meshes, placed);
     if (leaf_vertices_ == 0) return;
     builder_.add(
@@ -53,8 +69,7 @@ class TreeCollector {
         [&] { return place_of(placed); });
   }
 
-  /// Instances of the meshes that are no trees, each mesh once.
-  const std::vector<Instance>& others() const { return others_; }
+  const std::shared_ptr<LeafChoice>& choice() const { return choice_; }
 
   bool looks_like_one_tree() {
     const auto middle = leaf_vertices_of_models_.begin() +
@@ -64,19 +79,15 @@ class TreeCollector {
   }
 
  private:
-  /// Looks for leaves. Names decide, the node's among them: one mesh may be several models.
+  /// Looks for leaves. The node's name has its say: one mesh may be several models.
   void look_at(const GltfMeshes& meshes, const PlacedMesh& placed) {
     node_ = placed.node;
-    instances_.clear();
     is_leaf_.clear();
     leaf_vertices_ = 0;
+    std::size_t at = nodes_.at(placed.node);
     for (const std::uint32_t primitive : meshes.primitives.at(placed.mesh)) {
-      instances_.push_back({primitive, placed.node_name, kIdentity});
-      is_leaf_.push_back(is_leaf(meshes.tree, instances_.back(), leaves_));
+      is_leaf_.push_back(choice_->instances[at++]);
       if (is_leaf_.back()) leaf_vertices_ += meshes.tree.primitives[primitive].positions.size();
-    }
-    if (leaf_vertices_ == 0 && other_meshes_.insert(placed.mesh).second) {
-      others_.insert(others_.end(), instances_.begin(), instances_.end());
     }
   }
 
@@ -84,8 +95,11 @@ class TreeCollector {
     const auto [known, is_new] = models_.try_emplace({placed.mesh, is_leaf_});
     if (is_new) {
       SceneModel model;
-      model.mesh = meshes.tree.primitives[instances_.front().primitive].mesh_name;
-      model.instances = instances_;
+      const std::vector<std::uint32_t>& primitives = meshes.primitives.at(placed.mesh);
+      model.mesh = meshes.tree.primitives[primitives.front()].mesh_name;
+      for (std::size_t i = 0; i < primitives.size(); ++i) {
+        if (is_leaf_[i]) model.instances.push_back({primitives[i], placed.node_name, kIdentity});
+      }
       const std::string name =
           model.mesh.empty() ? "mesh-" + std::to_string(placed.mesh) : printable(model.mesh);
       known->second = builder_.add_model(std::move(model), name);
@@ -96,14 +110,14 @@ class TreeCollector {
 
   SceneBuilder& builder_;
   const LeafOptions& leaves_;
+  std::vector<Instance> instances_;     ///< the primitives of each node
+  std::map<int, std::size_t> nodes_;    ///< where a node's begin
+  std::shared_ptr<LeafChoice> choice_;  ///< of `instances_`
   std::map<std::pair<int, std::vector<bool>>, std::uint32_t> models_;  ///< by mesh and its leaves
   std::vector<std::size_t> leaf_vertices_of_models_;
-  std::set<int> other_meshes_;
-  std::vector<Instance> others_;
 
   // Of the node at hand.
   int node_ = -1;
-  std::vector<Instance> instances_;
   std::vector<bool> is_leaf_;
   std::size_t leaf_vertices_ = 0;
 };
@@ -136,17 +150,21 @@ Scene read_gltf_scene(const fs::path& file, const LeafOptions& leaves) {
     const Bytes bytes = read_scene_file(file);
     *tree = read_gltf_meshes(
                 bytes, file.string(), file.parent_path(),
-                [&](const auto& meshes, const auto& placed) { trees.take(meshes, placed); })
+                [&](const auto& meshes, const auto& placed) { trees.take(meshes, placed); },
+                [&](const auto& meshes, const auto& placed) { trees.survey(meshes, placed); })
                 .tree;
   }
   tree->path = file;
   for (const std::string& warning : tree->warnings) builder.warn(warning);
   std::vector<SceneModel>& models = builder.scene().models;
   if (models.empty() && builder.scene().skipped == 0) {
-    (void)find_leaves(*tree, trees.others(), leaves);  // says why there are none
+    throw_no_leaves(*tree, trees.choice() ? *trees.choice() : LeafChoice{}, leaves);
   }
   strip(*tree, models);
-  for (SceneModel& model : models) model.meshes = tree;
+  for (SceneModel& model : models) {
+    model.meshes = tree;
+    model.choice = trees.choice();
+  }
   if (!models.empty() && trees.looks_like_one_tree()) {
     builder.warn(
         "has few leaves in a mesh and looks like one tree, not a scene: leafhull extract "

@@ -247,13 +247,17 @@ TEST(MaskEllipse, WithoutAMaskTheTrianglesDecide) {
   const TreeModel cut = masked(tree_of({card(2, 1)}), alpha_image(64, disc));
   expect_radii(find_leaves(cut, {}), 0.4, 0.2, 3e-2);
 
-  TreeModel opaque = cut;
+  TreeModel opaque = cut;  // though its image has holes
   opaque.materials[0].alpha_mode = AlphaMode::opaque;
+  const LeafSet said = find_leaves(opaque, {});
+  expect_radii(said, 0.4, 0.2, 3e-2);
+  EXPECT_EQ(said.warnings.size(), 1u);
+
   TreeModel missing = cut;
   missing.images[0] = {};
   TreeModel uncut = cut;
   uncut.images[0] = alpha_image(64, [](double, double) { return 200; });
-  for (const TreeModel& tree : {opaque, missing, uncut}) {
+  for (const TreeModel& tree : {missing, uncut}) {
     const LeafSet set = find_leaves(tree, {});
     expect_radii(set, 2 / kSqrt3, 1 / kSqrt3);
     EXPECT_TRUE(set.warnings.empty());

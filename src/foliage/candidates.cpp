@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "foliage/candidates.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <tuple>
+#include <utility>
+
+#include "colour/colour.h"
+#include "foliage/evidence.h"
+
+namespace leafhull {
+namespace {
+
+// What a word is worth, by where it stands.
+constexpr double kMaterialName = 4, kImageName = 2, kPlaceName = 2.5, kParentName = 2;
+/// A material whose name says this much is not looked at for other things in it.
+constexpr double kPlain = 0.7;
+
+/// Signs of names, each read once.
+class NameReader {
+ public:
+  explicit NameReader(const TreeModel& tree) : tree_(tree), above_(tree.nodes.size()) {}
+
+  const NameSign& sign(std::string_view name) {
+    const auto [known, is_new] = signs_.try_emplace(std::string(name));
+    if (is_new) known->second = read_name(name);
+    return known->second;
+  }
+
+  /// Of the nearest node above, that says something.
+  const NameSign& above(int node) {
+    static const NameSign kNothing;
+    if (node < 0 || static_cast<std::size_t>(node) >= above_.size()) return kNothing;
+    std::vector<int> path;
+    const NameSign* found = &kNothing;
+    for (int at = tree_.nodes[node].parent; at >= 0; at = tree_.nodes[at].parent) {
+      if (above_[at]) {
+        found = above_[at];
+        break;
+      }
+      path.push_back(at);
+      const NameSign& own = sign(tree_.nodes[at].name);
+      if (own.weight != 0) {
+        found = &own;
+        break;
+      }
+      if (path.size() > above_.size()) break;
+    }
+    for (const int at : path) above_[at] = found;
+    return *found;
+  }
+
+ private:
+  const TreeModel& tree_;
+  std::map<std::string, NameSign> signs_;  // whose nodes stay where they are
+  std::vector<const NameSign*> above_;
+};
+
+const Material* material_of(const TreeModel& tree, const Primitive& primitive) {
+  return primitive.material < 0 ? nullptr : &tree.materials[primitive.material];
+}
+
+/// Of the names of mesh and node, the one that says more.
+const NameSign& place_sign(const NameSign& mesh, const NameSign& node) {
+  return std::abs(node.weight) > std::abs(mesh.weight) ? node : mesh;
+}
+
+/// The signs of a candidate's names.
+struct Signs {
+  NameSign material, image, place, above;
+};
+
+class CandidateFinder {
+ public:
+  CandidateFinder(const TreeModel& tree, std::span<const Instance> instances,
+                  const std::vector<bool>& looked_at)
+      : tree_(tree), instances_(instances), looked_at_(looked_at), names_(tree) {}
+
+  Candidates find(const Levels& levels) {
+    group(levels);
+    for (const auto& [primitive, numbers] : by_primitive_) box_of(primitive, numbers);
+    found_.part_of.resize(tree_.primitives.size());
+    for (const auto& [primitive, numbers] : by_primitive_) look_at_all(primitive, numbers);
+    drop_common_names();
+    for (std::size_t i = 0; i < found_.list.size(); ++i) weigh_names(signs_[i], found_.list[i]);
+    return std::move(found_);
+  }
+
+ private:
+  struct Group {
+    std::string_view node;
+    Signs signs;
+    std::vector<std::uint32_t> instances;
+  };
+
+  /// Instances of one primitive whose names say the same.
+  void group(const Levels& levels) {
+    using Key = std::tuple<std::uint32_t, std::string_view, const NameSign*, bool>;
+    std::map<Key, std::size_t> known;
+    for (std::uint32_t i = 0; i < instances_.size(); ++i) {
+      if (levels.coarser[i]) continue;
+      const Instance& instance = instances_[i];
+      const NameSign& above = names_.above(instance.node);
+      const auto [entry, is_new] = known.try_emplace(
+          {instance.primitive, instance.node_name, &above, looked_at_[i]}, groups_.size());
+      if (is_new) {
+        by_primitive_[instance.primitive].push_back(groups_.size());
+        groups_.push_back({instance.node_name, signs_of(instance, above), {}});
+      }
+      groups_[entry->second].instances.push_back(i);
+    }
+  }
+
+  Signs signs_of(const Instance& instance, const NameSign& above) {
+    const Primitive& primitive = tree_.primitives[instance.primitive];
+    Signs signs;
+    if (const Material* material = material_of(tree_, primitive)) {
+      signs.material = names_.sign(material->name);
+      if (material->base_color_image >= 0) {
+        const std::string& image = tree_.images[material->base_color_image].name;
+        const auto slash = image.find_last_of("/\\");
+        signs.image = names_.sign(std::string_view(image).substr(slash + 1));
+      }
+    }
+    signs.place = place_sign(names_.sign(primitive.mesh_name), names_.sign(instance.node_name));
+    signs.above = above;
+    return signs;
+  }
+
+  void box_of(std::uint32_t primitive, const std::vector<std::size_t>& groups) {
+    Box box;
+    for (const Vec3f p : tree_.primitives[primitive].positions) box.include(Vec3d(p));
+    if (box.empty()) return;
+    for (const std::size_t g : groups) {
+      for (const std::uint32_t i : groups_[g].instances) {
+        for (int corner = 0; corner < 8; ++corner) {
+          all_.include(transformed(instances_[i].to_world, {corner & 1 ? box.high.x : box.low.x,
+                                                            corner & 2 ? box.high.y : box.low.y,
+                                                            corner & 4 ? box.high.z : box.low.z}));
+        }
+      }
+    }
+  }
+
+  /// The parts of a primitive, for each group of its instances.
+  void look_at_all(std::uint32_t primitive, const std::vector<std::size_t>& groups) {
+    const Primitive& source = tree_.primitives[primitive];
+    const bool is_plain = std::ranges::all_of(groups, [&](std::size_t g) {
+      return std::abs(groups_[g].signs.material.weight) >= kPlain;
+    });
+    const Instance& first = instances_[groups_[groups.front()].instances.front()];
+    Looks looks = look_at(tree_, primitive, first.to_world, all_,
+                          is_plain ? Cutting::none : Cutting::where_it_differs);
+    std::vector<std::size_t> triangles(looks.parts.size());
+    for (const std::uint8_t part : looks.part_of) ++triangles[part];
+    if (looks.part_of.empty()) triangles.front() = source.triangles.size();
+
+    for (const std::size_t g : groups) {
+      const Group& group = groups_[g];
+      for (std::size_t part = 0; part < looks.parts.size(); ++part) {
+        Candidate candidate = describe(group, source, looks.parts[part], first.to_world);
+        candidate.primitive = primitive;
+        candidate.part = static_cast<std::uint8_t>(part);
+        candidate.told.is_part = looks.parts.size() > 1;
+        candidate.told.triangles = triangles[part];
+        signs_.push_back(group.signs);
+        found_.list.push_back(std::move(candidate));
+      }
+    }
+    found_.part_of[primitive] = std::move(looks.part_of);
+  }
+
+  Candidate describe(const Group& group, const Primitive& primitive, const Look& look,
+                     const Transform& first) const {
+    Candidate candidate;
+    LeafCandidate& told = candidate.told;
+    const Material* material = material_of(tree_, primitive);
+    if (material) {
+      told.material = material->name;
+      told.alpha_mode = material->alpha_mode;
+    }
+    told.mesh = primitive.mesh_name;
+    told.node = group.node;
+    told.instances = group.instances.size();
+    told.vertices = primitive.positions.size();
+    told.area = look.area * static_cast<double>(told.instances);
+    candidate.instances = group.instances;
+
+    const bool unread = material && material->base_color_image >= 0 &&
+                        tree_.images[material->base_color_image].empty();
+    told.evidence.alpha = alpha_evidence(look, told.alpha_mode, unread);
+    if (look.has_colour && !unread) {
+      told.colour = hex_of(look.colour);
+      told.evidence.colour = colour_evidence(look.colour);
+    }
+    told.evidence.shape = shape_evidence(look, told.instances);
+    candidate.height = height_of(group, look.centre, first);
+    told.evidence.place = place_evidence(candidate.height);
+    return candidate;
+  }
+
+  /// Of the middle of a part, mean over its instances, in the box of everything.
+  double height_of(const Group& group, Vec3d centre, const Transform& first) const {
+    const double rise = all_.high.y - all_.low.y;
+    if (!(rise > 0)) return 0.5;
+    double sum = 0;
+    for (const std::uint32_t i : group.instances) {
+      sum += centre.y + instances_[i].to_world[1][3] - first[1][3];
+    }
+    return (sum / static_cast<double>(group.instances.size()) - all_.low.y) / rise;
+  }
+
+  /// What the names of all things in a file say alike tells none of them apart.
+  void drop_common_names() {
+    if (found_.list.size() < 2) return;
+    for (NameSign Signs::*sign : {&Signs::place, &Signs::above, &Signs::image}) {
+      const double first = (signs_.front().*sign).weight;
+      const bool alike = std::ranges::all_of(
+          signs_, [&](const Signs& signs) { return (signs.*sign).weight == first; });
+      if (!alike) continue;
+      for (Signs& signs : signs_) signs.*sign = {};
+    }
+  }
+
+  static void weigh_names(const Signs& signs, Candidate& candidate) {
+    // A material's own name says more of it than where it hangs.
+    const double rest = 1 - 0.5 * std::abs(signs.material.weight);
+    const double material = kMaterialName * signs.material.weight;
+    const double image = rest * kImageName * signs.image.weight;
+    const double place = rest * kPlaceName * signs.place.weight;
+    const double above = signs.place.weight != 0 ? 0 : rest * kParentName * signs.above.weight;
+    candidate.told.evidence.name = material + image + place + above;
+    double most = 0;
+    for (const auto& [sign, weight] :
+         {std::pair(&signs.material, material), std::pair(&signs.image, image),
+          std::pair(&signs.place, place), std::pair(&signs.above, above)}) {
+      if (std::abs(weight) <= std::abs(most)) continue;
+      most = weight;
+      candidate.growth = sign->growth;
+      candidate.told.word = sign->word;
+    }
+  }
+
+  const TreeModel& tree_;
+  std::span<const Instance> instances_;
+  const std::vector<bool>& looked_at_;
+  NameReader names_;
+  std::vector<Group> groups_;
+  std::map<std::uint32_t, std::vector<std::size_t>> by_primitive_;
+  Box all_;
+  Candidates found_;
+  std::vector<Signs> signs_;  ///< by candidate
+};
+
+}  // namespace
+
+Candidates find_candidates(const TreeModel& tree, std::span<const Instance> instances,
+                           const Levels& levels, const std::vector<bool>& looked_at) {
+  return CandidateFinder(tree, instances, looked_at).find(levels);
+}
+
+}  // namespace leafhull

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "foliage/levels.h"
+#include "foliage/look.h"
+#include "foliage/names.h"
+#include "leafhull/leaves.h"
+
+namespace leafhull {
+
+/// A candidate, and where in the tree it is.
+struct Candidate {
+  LeafCandidate told;
+  Growth growth = Growth::unknown;  ///< what its names say it is
+  double height = 0;                ///< of its middle, in the box of everything
+  std::uint32_t primitive = 0;
+  std::uint8_t part = 0;
+  std::vector<std::uint32_t> instances;  ///< into those given; shared by the parts of a primitive
+};
+
+/// Everything in a file that could be leaves, with what speaks for it.
+struct Candidates {
+  std::vector<Candidate> list;                     ///< in file order
+  std::vector<std::vector<std::uint8_t>> part_of;  ///< by primitive and triangle; empty: one part
+};
+
+/// Of the instances that `levels` does not leave out. @param looked_at by instance, as the options
+/// ask; a candidate's instances are all or none of them.
+Candidates find_candidates(const TreeModel& tree, std::span<const Instance> instances,
+                           const Levels& levels, const std::vector<bool>& looked_at);
+
+}  // namespace leafhull

@@ -1,0 +1,322 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "foliage/look.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "colour/colour.h"
+#include "foliage/evidence.h"
+#include "foliage/surface_colour.h"
+#include "leaves/components.h"
+
+namespace leafhull {
+namespace {
+
+constexpr std::size_t kSamples = 400'000;  // of an image, a primitive
+constexpr std::size_t kMostParts = 12;
+/// Colours in Oklab nearer than this are one colour of the thing.
+constexpr double kOneColour = 0.11;
+/// Spread within triangles below this: a palette, or vertex colours; above it, a photograph.
+constexpr double kPaletteSpread = 0.03 * 0.03;
+/// A piece with at least this share cut away has holes.
+constexpr double kHoles = 0.02;
+
+/// Colours that speak this much for leaves or against them are enough.
+constexpr double kTelling = 1;
+/// A piece of so many triangles, this share of its area of either colour, is of both.
+constexpr std::size_t kMixedTriangles = 100;
+constexpr double kMixedShare = 0.04;
+
+enum class Form { flat, tube, lobe, slab };
+
+/// Sums over the triangles of a piece.
+struct Piece {
+  Eigen::Vector3d origin;  ///< a vertex, about which the sums are
+  double area = 0, volume = 0, kept = 0, spread = 0;
+  Vec3d colour;
+  Eigen::Vector3d first = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
+  double level = 0;  ///< area seen from above
+  Box box;
+  std::size_t triangles = 0;
+  Form form = Form::lobe;
+
+  double length() const { return box.longest_side(); }
+};
+
+Eigen::Vector3d to_eigen3(Vec3d v) { return {v.x, v.y, v.z}; }
+
+/// A primitive in the world, and what its triangles show.
+struct Surface {
+  std::vector<Vec3d> positions;
+  std::vector<double> areas;
+  std::vector<Shown> shown;
+  std::vector<std::uint32_t> piece_of;
+  std::vector<Piece> pieces;
+};
+
+void add(const Surface& surface, const Primitive& primitive, std::size_t t, Piece& piece) {
+  const auto [a, b, c] = primitive.triangles[t];
+  if (piece.triangles++ == 0) piece.origin = to_eigen3(surface.positions[a]);
+  const Eigen::Vector3d p = to_eigen3(surface.positions[a]) - piece.origin,
+                        q = to_eigen3(surface.positions[b]) - piece.origin,
+                        r = to_eigen3(surface.positions[c]) - piece.origin;
+  const double area = surface.areas[t];
+  const Eigen::Vector3d sum = p + q + r;
+  piece.area += area;
+  piece.volume += p.dot(q.cross(r)) / 6;
+  piece.level += std::abs((q - p).cross(r - p).y()) / 2;
+  piece.first += area / 3 * sum;
+  piece.second +=
+      area / 12 *
+      (p * p.transpose() + q * q.transpose() + r * r.transpose() + sum * sum.transpose());
+  for (const std::uint32_t vertex : {a, b, c}) piece.box.include(surface.positions[vertex]);
+  const Shown& shown = surface.shown[t];
+  piece.kept += area * shown.kept;
+  piece.spread += area * shown.spread;
+  piece.colour = piece.colour + Vec3d(shown.colour) * (area * shown.kept);
+}
+
+/// How large a tree is: as high as everything in the file, unless that lies flat.
+double scale_of(const Box& all) {
+  return std::max(all.high.y - all.low.y, 0.15 * all.longest_side());
+}
+
+Form form_of(const Piece& piece, const Box& all) {
+  const Vec3d size = piece.box.size();
+  const double width = std::max(size.x, size.z), whole = scale_of(all);
+  const Vec3d whole_size = all.size();
+  const double top = piece.box.high.y - all.low.y;
+  const bool is_wide = width > std::min(0.35 * std::max(whole_size.x, whole_size.z), 0.6 * whole);
+  const bool bears_something = whole_size.y > 0.005 * width;
+  if (is_wide && bears_something && size.y < 0.2 * width &&
+      top < 0.25 * whole_size.y + 0.02 * whole && piece.level > 0.4 * piece.area) {
+    return Form::slab;
+  }
+  if (!(piece.area > 0)) return Form::flat;
+  const Eigen::Vector3d mean = piece.first / piece.area;
+  const Eigen::Matrix3d spread = piece.second / piece.area - mean * mean.transpose();
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes;
+  axes.computeDirect(spread, Eigen::EigenvaluesOnly);
+  const Eigen::Vector3d extent = axes.eigenvalues().cwiseMax(0).cwiseSqrt();  // ascending
+  if (extent[0] < 0.12 * extent[1] || piece.triangles <= 2) return Form::flat;
+  if (extent[2] > 2.6 * extent[1]) return Form::tube;
+  // A skeleton of branches encloses little of its box; so does a large open sheet.
+  const double box = size.x * size.y * size.z;
+  const bool is_large = piece.length() > 0.3 * whole && piece.triangles > 40;
+  if (is_large && std::abs(piece.volume) < 0.06 * box) return Form::tube;
+  return Form::lobe;
+}
+
+Surface survey(const TreeModel& tree, const Primitive& primitive, const Transform& to_world,
+               const Box& all) {
+  Surface surface;
+  surface.positions.reserve(primitive.positions.size());
+  for (const Vec3f p : primitive.positions) {
+    surface.positions.push_back(transformed(to_world, Vec3d(p)));
+  }
+  const SurfaceColour colour(tree, primitive, kSamples);
+  const std::size_t count = primitive.triangles.size();
+  surface.areas.reserve(count);
+  surface.shown.reserve(count);
+  for (std::size_t t = 0; t < count; ++t) {
+    const auto [a, b, c] = primitive.triangles[t];
+    const Vec3d* p = surface.positions.data();
+    surface.areas.push_back(length(cross(p[b] - p[a], p[c] - p[a])) / 2);
+    surface.shown.push_back(colour.varies() || t == 0 ? colour.of(t) : surface.shown.front());
+  }
+  surface.piece_of = label_pieces(primitive);
+  if (count > 0) surface.pieces.resize(std::ranges::max(surface.piece_of) + std::size_t{1});
+  for (std::size_t t = 0; t < count; ++t) {
+    add(surface, primitive, t, surface.pieces[surface.piece_of[t]]);
+  }
+  for (Piece& piece : surface.pieces) {
+    piece.form = form_of(piece, all);
+    if (piece.kept > 0) piece.colour = piece.colour / piece.kept;
+    if (piece.area > 0) {
+      piece.kept /= piece.area;
+      piece.spread /= piece.area;
+    }
+  }
+  return surface;
+}
+
+/// Groups colours: those near to an earlier one are one with it. The largest areas come first.
+class ColourClasses {
+ public:
+  std::uint8_t of(Vec3d colour) {
+    const Vec3d lab = oklab_of(Vec3f(colour));
+    std::size_t nearest = 0;
+    double least = HUGE_VAL;
+    for (std::size_t i = 0; i < classes_.size(); ++i) {
+      const double distance = length(classes_[i].lab - lab);
+      if (distance < least) least = distance, nearest = i;
+    }
+    if (least > kOneColour && classes_.size() < kMostParts) {
+      nearest = classes_.size();
+      classes_.push_back({lab, std::abs(colour_evidence(Vec3f(colour))) >= kTelling});
+    }
+    return static_cast<std::uint8_t>(nearest);
+  }
+  /// Whether the colour tells what has it.
+  bool tells(std::uint8_t number) const { return classes_[number].tells; }
+
+ private:
+  struct Class {
+    Vec3d lab;
+    bool tells;
+  };
+  std::vector<Class> classes_;
+};
+
+/// Numbers from the greatest area to the least.
+std::vector<std::uint32_t> by_area(const std::vector<double>& areas) {
+  std::vector<std::uint32_t> order(areas.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::ranges::stable_sort(order, [&](auto a, auto b) { return areas[a] > areas[b]; });
+  return order;
+}
+
+/// Whether a piece has triangles of a leaf's colour and of bark's: a tree in one piece.
+std::vector<bool> mixed_pieces(const Surface& surface) {
+  std::vector<double> for_leaves(surface.pieces.size()), against(surface.pieces.size());
+  for (std::size_t t = 0; t < surface.areas.size(); ++t) {
+    const double evidence = colour_evidence(surface.shown[t].colour);
+    if (evidence > kTelling) for_leaves[surface.piece_of[t]] += surface.areas[t];
+    if (evidence < -kTelling) against[surface.piece_of[t]] += surface.areas[t];
+  }
+  std::vector<bool> mixed;
+  for (std::size_t i = 0; i < surface.pieces.size(); ++i) {
+    const double least = kMixedShare * surface.pieces[i].area;
+    mixed.push_back(surface.pieces[i].triangles >= kMixedTriangles && for_leaves[i] > least &&
+                    against[i] > least);
+  }
+  return mixed;
+}
+
+/// The class of each triangle by what differs most plainly: holes, then colour, then form where
+/// the colour does not tell.
+std::vector<std::uint8_t> classes_of(const Surface& surface, bool has_colour) {
+  const std::size_t count = surface.areas.size();
+  double area = 0, with_holes = 0, spread = 0;
+  for (const Piece& piece : surface.pieces) {
+    area += piece.area;
+    spread += piece.area * piece.spread;
+    if (piece.kept < 1 - kHoles) with_holes += piece.area;
+  }
+  const bool holes_tell = with_holes > kHoles * area;
+  const bool is_palette = spread <= kPaletteSpread * area;
+  const std::vector<bool> mixed = mixed_pieces(surface);
+
+  // What has one colour: a triangle, or a piece with a photograph on it.
+  ColourClasses colours;
+  std::vector<std::uint8_t> colour_of(count), colour_of_piece(surface.pieces.size());
+  std::vector<double> areas;
+  for (const Piece& piece : surface.pieces) areas.push_back(piece.area);
+  for (const std::uint32_t i : by_area(areas)) {
+    if (!is_palette && !mixed[i]) colour_of_piece[i] = colours.of(surface.pieces[i].colour);
+  }
+  for (const std::uint32_t t : by_area(surface.areas)) {
+    const std::uint32_t piece = surface.piece_of[t];
+    const bool by_triangle = is_palette || mixed[piece];
+    colour_of[t] =
+        by_triangle ? colours.of(Vec3d(surface.shown[t].colour)) : colour_of_piece[piece];
+  }
+
+  constexpr std::uint8_t kWithHoles = 0;
+  std::vector<std::uint8_t> classes(count, kWithHoles);
+  for (std::size_t t = 0; t < count; ++t) {
+    const Piece& piece = surface.pieces[surface.piece_of[t]];
+    if (holes_tell && piece.kept < 1 - kHoles) continue;
+    const bool tells = has_colour && colours.tells(colour_of[t]);
+    const Form form = tells && piece.form != Form::slab ? Form::lobe : piece.form;
+    classes[t] = static_cast<std::uint8_t>(1 + colour_of[t] + 16 * static_cast<int>(form));
+  }
+  return classes;
+}
+
+/// Numbers the classes from 0, the largest area first; those past the limit join the last.
+void renumber(const Surface& surface, std::vector<std::uint8_t>& classes) {
+  std::vector<double> areas(256);
+  for (std::size_t t = 0; t < classes.size(); ++t) areas[classes[t]] += surface.areas[t];
+  std::vector<bool> used(256);
+  for (const std::uint8_t c : classes) used[c] = true;
+  std::vector<std::uint8_t> number(256);
+  std::size_t next = 0;
+  for (const std::uint32_t c : by_area(areas)) {
+    if (!used[c]) continue;
+    number[c] = static_cast<std::uint8_t>(std::min(next, kMostParts - 1));
+    ++next;
+  }
+  for (std::uint8_t& c : classes) c = number[c];
+}
+
+std::vector<Look> describe(const Surface& surface, const std::vector<std::uint8_t>& part_of,
+                           std::uint32_t primitive, bool has_colour, const Box& all) {
+  const std::size_t parts = part_of.empty() ? 1 : std::ranges::max(part_of) + std::size_t{1};
+  std::vector<Look> looks(parts);
+  std::vector<Vec3d> colours(parts);
+  std::vector<double> kept(parts);
+  std::vector<std::vector<bool>> has_piece(parts, std::vector<bool>(surface.pieces.size()));
+  for (std::size_t t = 0; t < surface.areas.size(); ++t) {
+    const std::size_t part = part_of.empty() ? 0 : part_of[t];
+    const Piece& piece = surface.pieces[surface.piece_of[t]];
+    const double area = surface.areas[t];
+    Look& look = looks[part];
+    look.area += area;
+    kept[part] += area * surface.shown[t].kept;
+    colours[part] = colours[part] + Vec3d(surface.shown[t].colour) * (area * surface.shown[t].kept);
+    look.piece_length += area * piece.length();
+    const Vec3d middle = (piece.box.low + piece.box.high) / 2;
+    look.centre = look.centre + middle * area;
+    double& form = piece.form == Form::flat   ? look.forms.flat
+                   : piece.form == Form::tube ? look.forms.tube
+                   : piece.form == Form::lobe ? look.forms.lobe
+                                              : look.forms.slab;
+    form += area;
+    if (!has_piece[part][surface.piece_of[t]]) {
+      has_piece[part][surface.piece_of[t]] = true;
+      ++look.pieces;
+    }
+  }
+  for (std::size_t part = 0; part < parts; ++part) {
+    Look& look = looks[part];
+    look.primitive = primitive;
+    look.has_colour = has_colour && kept[part] > 0;
+    if (kept[part] > 0) look.colour = Vec3f(colours[part] / kept[part]);
+    if (!(look.area > 0)) continue;
+    look.cut = 1 - kept[part] / look.area;
+    look.centre = look.centre / look.area;
+    look.piece_length /= look.area * std::max(scale_of(all), 1e-300);
+    for (double* form : {&look.forms.flat, &look.forms.tube, &look.forms.lobe, &look.forms.slab}) {
+      *form /= look.area;
+    }
+  }
+  return looks;
+}
+
+}  // namespace
+
+Vec3d transformed(const Transform& m, Vec3d p) {
+  const auto row = [&](int i) { return m[i][0] * p.x + m[i][1] * p.y + m[i][2] * p.z + m[i][3]; };
+  return {row(0), row(1), row(2)};
+}
+
+Looks look_at(const TreeModel& tree, std::uint32_t primitive, const Transform& to_world,
+              const Box& all, Cutting cutting) {
+  const Primitive& source = tree.primitives[primitive];
+  const Surface surface = survey(tree, source, to_world, all);
+  const bool has_colour = SurfaceColour(tree, source, 1).is_known();
+  Looks looks;
+  if (cutting == Cutting::where_it_differs) {
+    looks.part_of = classes_of(surface, has_colour);
+    renumber(surface, looks.part_of);
+  }
+  looks.parts = describe(surface, looks.part_of, primitive, has_colour, all);
+  if (looks.parts.size() < 2) looks.part_of.clear();
+  return looks;
+}
+
+}  // namespace leafhull

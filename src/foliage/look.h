@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "leafhull/tree.h"
+
+namespace leafhull {
+
+/// What the pieces of a part are: the share of its area in pieces of each form.
+struct Forms {
+  double flat = 0;  ///< leaves, cards
+  double tube = 0;  ///< trunks, branches, skeletons of them
+  double lobe = 0;  ///< closed or open shells about as thick as long
+  double slab = 0;  ///< wide and level, at the foot of everything
+};
+
+/// A part of a primitive that looks alike: all of it, or its triangles of one colour, with holes,
+/// or of one form.
+struct Look {
+  std::uint32_t primitive = 0;
+  double area = 0;  ///< world, one side, of the first instance
+  Vec3f colour{};   ///< linear, mean of what is visible
+  bool has_colour = false;
+  double cut = 0;  ///< share of its area that the texture's alpha cuts away
+  Forms forms{};
+  std::size_t pieces = 0;   ///< that hang together
+  double piece_length = 0;  ///< longest side of its pieces' boxes, mean by area, over a tree's
+  Vec3d centre{};           ///< mean by area, world
+};
+
+/// The looks of a primitive and, where there is more than one, which of them each triangle has.
+struct Looks {
+  std::vector<Look> parts;
+  std::vector<std::uint8_t> part_of;  ///< by triangle; empty: all of the first
+};
+
+/// Whether a primitive may be cut into parts.
+enum class Cutting { none, where_it_differs };
+
+/// @param to_world the primitive's first place; @param all the box of everything in the file.
+Looks look_at(const TreeModel& tree, std::uint32_t primitive, const Transform& to_world,
+              const Box& all, Cutting cutting);
+
+/// Where a transform takes a point.
+Vec3d transformed(const Transform& to_world, Vec3d p);
+
+}  // namespace leafhull
