@@ -22,10 +22,6 @@ constexpr std::chrono::milliseconds kRedraw{50};
 std::atomic<bool> shown = false;
 static_assert(std::atomic<bool>::is_always_lock_free);
 
-double since(std::chrono::steady_clock::time_point begin) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-}
-
 /// Of the terminal that the bar is on.
 int columns() {
   winsize size{};

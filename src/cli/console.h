@@ -45,6 +45,11 @@ class Console {
   std::set<std::string> warnings_;
 };
 
+/// In seconds.
+inline double since(std::chrono::steady_clock::time_point begin) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
 /// Wipes the bar. Async-signal-safe.
 void clear_progress() noexcept;
 

@@ -50,9 +50,6 @@ class Stages {
 
  private:
   using Clock = std::chrono::steady_clock;
-  static double since(Clock::time_point begin) {
-    return std::chrono::duration<double>(Clock::now() - begin).count();
-  }
 
   Console& console_;
   Clock::time_point start_ = Clock::now();
@@ -67,7 +64,7 @@ std::vector<std::filesystem::path> named(const OutputFiles& files) {
   return all;
 }
 
-void check_arguments(const Arguments& arguments) {
+void check_extract_arguments(const Arguments& arguments) {
   if (named(arguments.files).empty()) {
     throw Error(ErrorCode::usage, "no output is named",
                 "Name one, such as -o shape.glb (or --save-kernels, --save-field, --report).");
@@ -153,7 +150,7 @@ void say_times(Console& console, const std::vector<StageTime>& times) {
 
 void run_extract(const Arguments& arguments) {
   Console console(arguments.quiet, arguments.verbose);
-  check_arguments(arguments);
+  check_extract_arguments(arguments);
   const Options options = resolve(arguments.options);
   check_outputs(arguments.files, arguments.tree);
   std::vector<std::string> warnings;

@@ -24,10 +24,6 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-double since(Clock::time_point begin) {
-  return std::chrono::duration<double>(Clock::now() - begin).count();
-}
-
 void refuse_together(bool first_given, std::string_view first, bool second_given,
                      std::string_view second, const std::string& remedy) {
   if (!first_given || !second_given) return;
@@ -86,7 +82,7 @@ void check_file(const fs::path& file, std::string_view extension, const Argument
   check_output(file, extension, input);
 }
 
-void check_arguments(const Arguments& arguments) {
+void check_forest_arguments(const Arguments& arguments) {
   (void)resolve(arguments.options);
   if (arguments.folder.empty()) {
     throw Error(ErrorCode::usage, "no folder for the forest is named", "Name one: -o out/.");
@@ -241,7 +237,7 @@ void make_forest(const Arguments& arguments, Ranks& ranks) {
   Console console(arguments.quiet || !speaks, arguments.verbose && speaks);
   check_ranks_agree(arguments, ranks);
   check_ranks_share_all(arguments, ranks);
-  check_arguments(arguments);
+  check_forest_arguments(arguments);
   warn_of_memory(arguments, console);
   ForestOptions options = arguments.forest;
   options.shape = arguments.options;

@@ -15,11 +15,6 @@ constexpr int kMostLevels = 8;
 constexpr int kTileStep = 32, kLargestTile = 512;
 constexpr int kMostParts = 1'000'000;
 
-template <class Enum>
-Enum chosen(std::string_view flag, const std::string& text) {
-  return static_cast<Enum>(choice(flag, text, names(Enum{})));
-}
-
 void set_tile(Arguments& a, const std::string& text) {
   const int edge = whole_number("--tile", text, kTileStep, kLargestTile);
   if (edge % kTileStep != 0) {
@@ -128,7 +123,7 @@ std::vector<Flag> work_flags() {
   };
 }
 
-std::vector<Flag> folder_flags() {
+std::vector<Flag> forest_output_flags() {
   return {
       {.spelling = "-o,--output",
        .value = "DIR",
@@ -156,7 +151,9 @@ std::vector<Flag> folder_flags() {
 
 }  // namespace
 
-std::vector<Flag> forest_flags() { return all_of({merge_flags(), work_flags(), folder_flags()}); }
+std::vector<Flag> forest_flags() {
+  return all_of({merge_flags(), work_flags(), forest_output_flags()});
+}
 
 std::vector<Flag> tree_flags() {
   constexpr std::pair<std::string_view, std::string_view> kRefused[] = {

@@ -24,7 +24,7 @@ struct {
   bool tells_stop = false;
   bool has_other_hosts = false;  ///< whose ranks may be lost unseen
   std::atomic<std::size_t> tiles = 0;
-} run;
+} this_run;
 
 /// A line in a buffer of its own: a handler of a signal may not allocate.
 class Line {
@@ -53,37 +53,37 @@ class Line {
 };
 
 std::size_t tiles_left() noexcept {
-  const std::size_t tiles = run.tiles;
-  return tiles - std::min<std::size_t>(tiles, run.ranks->last(Sum::tiles));
+  const std::size_t tiles = this_run.tiles;
+  return tiles - std::min<std::size_t>(tiles, this_run.ranks->last(Sum::tiles));
 }
 
 void tell_why() noexcept {
   Line line;
   line.add("leafhull: ");
   int lost = 0;
-  for (int rank = 0; rank < run.ranks->size(); ++rank) {
-    if (!run.ranks->is_lost(rank)) continue;
+  for (int rank = 0; rank < this_run.ranks->size(); ++rank) {
+    if (!this_run.ranks->is_lost(rank)) continue;
     if (lost++ > 0) line.add(", ");
-    line.add(run.names[static_cast<std::size_t>(rank)]);
+    line.add(this_run.names[static_cast<std::size_t>(rank)]);
   }
-  if (lost == 0 && !run.tells_stop) return;
+  if (lost == 0 && !this_run.tells_stop) return;
   line.add(lost > 0 ? " died" : "stopped");
-  if (lost == 0 && run.has_other_hosts) line.add(", perhaps by a rank of another host");
+  if (lost == 0 && this_run.has_other_hosts) line.add(", perhaps by a rank of another host");
   line.add("; ");
-  if (run.tiles > 0) {
+  if (this_run.tiles > 0) {
     line.add("still to do: ");
     line.add(tiles_left());
     line.add(" of ");
-    line.add(run.tiles);
+    line.add(this_run.tiles);
     line.add(" tiles; ");
   }
-  line.add(run.how_to_go_on);
+  line.add(this_run.how_to_go_on);
   line.print();
 }
 
 void say_last_words() noexcept {
-  if (run.ranks->leave()) tell_why();
-  run.ranks->leave_together();
+  if (this_run.ranks->leave()) tell_why();
+  this_run.ranks->leave_together();
 }
 
 }  // namespace
@@ -91,29 +91,29 @@ void say_last_words() noexcept {
 ForestWords::ForestWords(Ranks& ranks, bool quiet, const std::string& how_to_go_on) {
   const std::vector<RankProcess>& processes = ranks.processes();
   const auto& mine = processes[static_cast<std::size_t>(ranks.rank())];
-  run.ranks = &ranks;
-  run.names.clear();
+  this_run.ranks = &ranks;
+  this_run.names.clear();
   for (const RankProcess& process : processes) {
-    run.names.push_back("rank " + std::to_string(run.names.size()) + " (" + process.host +
-                        ", process " + std::to_string(process.pid) + ")");
+    this_run.names.push_back("rank " + std::to_string(this_run.names.size()) + " (" + process.host +
+                             ", process " + std::to_string(process.pid) + ")");
   }
-  run.how_to_go_on = how_to_go_on;
-  run.tells_stop = !quiet && mine.host == processes.front().host;  // one host is enough
-  run.has_other_hosts =
+  this_run.how_to_go_on = how_to_go_on;
+  this_run.tells_stop = !quiet && mine.host == processes.front().host;  // one host is enough
+  this_run.has_other_hosts =
       std::any_of(processes.begin(), processes.end(),
                   [&](const RankProcess& other) { return other.host != mine.host; });
-  run.tiles = 0;
+  this_run.tiles = 0;
   catch_signals(say_last_words);
 }
 
 ForestWords::~ForestWords() { catch_signals(); }
 
-void ForestWords::set_tiles(std::size_t tiles) { run.tiles = tiles; }
+void ForestWords::set_tiles(std::size_t tiles) { this_run.tiles = tiles; }
 
 std::string ForestWords::still_to_do() const {
-  if (run.tiles == 0) return {};
-  return std::to_string(tiles_left()) + " of " + std::to_string(run.tiles) +
-         " tiles are still to do; " + run.how_to_go_on + ".";
+  if (this_run.tiles == 0) return {};
+  return std::to_string(tiles_left()) + " of " + std::to_string(this_run.tiles) +
+         " tiles are still to do; " + this_run.how_to_go_on + ".";
 }
 
 }  // namespace leafhull::cli

@@ -22,11 +22,6 @@ std::string_view listed_styles() {
   return text;
 }
 
-template <class Enum>
-Enum chosen(std::string_view flag, const std::string& text) {
-  return static_cast<Enum>(choice(flag, text, names(Enum{})));
-}
-
 void set_size(Arguments& a, const std::string& text) {
   const std::size_t cross = text.find('x');
   if (cross == std::string::npos) {

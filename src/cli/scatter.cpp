@@ -124,7 +124,7 @@ std::vector<Flag> leaves_flag() {
   return flags;
 }
 
-void check_arguments(const Arguments& arguments) {
+void check_scatter_arguments(const Arguments& arguments) {
   const ScatterOptions& options = arguments.scatter;
   if (options.count == 0) {
     throw Error(ErrorCode::usage, "--count is missing", "Give the number of trees: --count 2000.");
@@ -145,7 +145,7 @@ void check_arguments(const Arguments& arguments) {
 void run_scatter(const Arguments& arguments) {
   const auto start = std::chrono::steady_clock::now();
   Console console(arguments.quiet, arguments.verbose);
-  check_arguments(arguments);
+  check_scatter_arguments(arguments);
   ScatterOptions options = arguments.scatter;
   options.trees = arguments.trees;
   options.leaves = resolve(arguments.options).leaf_options();

@@ -22,13 +22,13 @@ void say_words() noexcept {
   [[maybe_unused]] const auto written = write(STDERR_FILENO, words.data(), words_size);
 }
 
-std::atomic<void (*)() noexcept> say_last_words = say_words;
-static_assert(decltype(say_last_words)::is_always_lock_free);
+std::atomic<void (*)() noexcept> say_at_the_end = say_words;
+static_assert(decltype(say_at_the_end)::is_always_lock_free);
 
 extern "C" void clean_up_and_die(int signal) {
   discard_unfinished_outputs();
   clear_progress();
-  say_last_words.load()();
+  say_at_the_end.load()();
   std::signal(signal, SIG_DFL);
   std::raise(signal);
 }
@@ -43,7 +43,7 @@ void catch_signals(std::string_view last_words) {
 }
 
 void catch_signals(void (*say)() noexcept) {
-  say_last_words = say;
+  say_at_the_end = say;
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     // What the parent has ignored (nohup, a background job) stays ignored.
     if (std::signal(signal, clean_up_and_die) == SIG_IGN) std::signal(signal, SIG_IGN);

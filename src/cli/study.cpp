@@ -26,7 +26,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::vector<Flag> folder_flags() {
+std::vector<Flag> study_output_flags() {
   return {{.spelling = "-o,--output",
            .value = "FOLDER",
            .group = "Output",
@@ -34,7 +34,7 @@ std::vector<Flag> folder_flags() {
            .set = [](Arguments& a, const std::string& text) { a.folder = text; }}};
 }
 
-void check_arguments(const Arguments& arguments) {
+void check_study_arguments(const Arguments& arguments) {
   if (arguments.folder.empty()) {
     throw Error(ErrorCode::usage, "no folder for the report is given", "Give one: -o study/.");
   }
@@ -141,7 +141,7 @@ void print_verdicts(const TreeStudy& tree) {
 
 void run_study(const Arguments& arguments) {
   Console console(arguments.quiet, arguments.verbose);
-  check_arguments(arguments);
+  check_study_arguments(arguments);
   const LeafOptions options = resolve(arguments.options).leaf_options();
   catch_signals(arguments.quiet ? "" : "leafhull: stopped; a study is written at its end\n");
   const auto began = std::chrono::steady_clock::now();
@@ -191,8 +191,8 @@ Verb study_verb() {
           "  leafhull study birch.glb ash.glb --leaves '*leaf*' -o study/\n",
       .takes_trees = true,
       .operand = "TREE...",
-      .flags = all_of(
-          {option_flags("Leaves"), folder_flags(), device_flags(), console_flags(), help_flags()}),
+      .flags = all_of({option_flags("Leaves"), study_output_flags(), device_flags(),
+                       console_flags(), help_flags()}),
       .run = run_study};
 }
 

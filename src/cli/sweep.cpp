@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t kMostUnasked = 10'000;
 
-void check_arguments(const Arguments& arguments) {
+void check_sweep_arguments(const Arguments& arguments) {
   const std::string example =
       "such as leafhull sweep " + quoted(arguments.tree.string()) + " --threshold 1.5:2.5:0.25 -o ";
   if (arguments.swept.empty()) {
@@ -93,7 +93,7 @@ void say_summary(Console& console, const SweepSummary& summary, const Arguments&
 void run_sweep_verb(const Arguments& arguments) {
   const auto start = std::chrono::steady_clock::now();
   Console console(arguments.quiet, arguments.verbose);
-  check_arguments(arguments);
+  check_sweep_arguments(arguments);
   const SweepPlan plan = plan_of(arguments);
   const std::string folder = arguments.folder.string();
   check_output_folder(arguments.folder);

@@ -29,6 +29,13 @@ std::uint64_t byte_count(std::string_view flag, const std::string& text, std::ui
 std::size_t choice(std::string_view flag, std::string_view text,
                    std::span<const std::string_view> valid);
 
+/// The value of an enumeration that `text` names.
+/// @throws Error usage: it names none; the nearest is suggested.
+template <class Enum>
+Enum chosen(std::string_view flag, const std::string& text) {
+  return static_cast<Enum>(choice(flag, text, names(Enum{})));
+}
+
 /// The one of `valid` that `text` was probably meant to be; empty where none is near.
 std::string_view nearest(std::string_view text, std::span<const std::string_view> valid);
 

@@ -20,7 +20,7 @@ namespace {
 constexpr std::size_t kClusterPoints = 256;
 constexpr std::size_t kLeastChunk = 8;
 /// What a batch should hold: 2 MiB of ranks, and no more chunks than one launch takes.
-constexpr std::size_t kBatchEntries = std::size_t{1} << 19;
+constexpr std::size_t kChunkEntries = std::size_t{1} << 19;
 constexpr std::size_t kBatchClusters = (std::size_t{1} << 15) / (kClusterPoints / kLeastChunk);
 
 std::size_t chunks_of(std::size_t points, std::size_t chunk_points) {
@@ -225,7 +225,7 @@ void find_near(const KernelSet& set, std::span<const Vec3<T>> points, Within wit
   for (std::size_t begin = 0, end = 0; begin < clusters.size(); begin = end) {
     end = std::min(begin + group, clusters.size());
     search(points, std::span(clusters).subspan(begin, end - begin), searches, lists, batch);
-    group = std::clamp<std::size_t>(kBatchEntries * (end - begin) / (batch.kernels.size() + 1), 1,
+    group = std::clamp<std::size_t>(kChunkEntries * (end - begin) / (batch.kernels.size() + 1), 1,
                                     std::min(4 * group, kBatchClusters));
     visit(batch);
   }

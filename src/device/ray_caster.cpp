@@ -22,25 +22,25 @@ std::string closest_options(bool sampled, int lanes, int falloff) {
          " -DLANES=" + std::to_string(lanes) + (sampled ? " -DSAMPLED" : "");
 }
 
-/// What a kernel reaches, voxels from the lattice's anchor, as the device reads it.
-struct alignas(16) Ball {
-  Vec3f centre;
-  float radius;
-};
-
-std::vector<Ball> balls_around(const KernelSet& kernels) {
-  std::vector<Ball> balls;
-  balls.reserve(kernels.kernels().size());
-  for (std::size_t i = 0; i < kernels.kernels().size(); ++i) {
-    const LatticeKernel& kernel = kernels.kernels()[i];
-    balls.push_back({Vec3f(to_vec3d(kernel.cell) + Vec3d(kernel.offset)), kernels.radii()[i]});
-  }
-  return balls;
-}
-
 }  // namespace
 
 struct RayCaster::Impl {
+  /// What a kernel reaches, voxels from the lattice's anchor, as the device reads it.
+  struct alignas(16) Ball {
+    Vec3f centre;
+    float radius;
+  };
+
+  static std::vector<Ball> balls_around(const KernelSet& kernels) {
+    std::vector<Ball> balls;
+    balls.reserve(kernels.kernels().size());
+    for (std::size_t i = 0; i < kernels.kernels().size(); ++i) {
+      const LatticeKernel& kernel = kernels.kernels()[i];
+      balls.push_back({Vec3f(to_vec3d(kernel.cell) + Vec3d(kernel.offset)), kernels.radii()[i]});
+    }
+    return balls;
+  }
+
   Device::Engine& engine;
   const BrickGrid& grid;
   float threshold;
@@ -108,7 +108,7 @@ RayCaster::RayCaster(Device& device, const BrickGrid& grid, double threshold,
   Impl& d = *impl_;
   d.engine.run("sending the kernels", [&] {
     d.kernels = d.engine.buffer(kernels.kernels(), CL_MEM_READ_ONLY);
-    d.all_balls = balls_around(kernels);
+    d.all_balls = Impl::balls_around(kernels);
     d.balls = d.engine.input(d.all_balls);
     d.first = d.engine.input(lists.first);
     d.list = d.engine.input(lists.kernels);

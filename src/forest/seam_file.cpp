@@ -17,7 +17,7 @@ constexpr std::array<char, 8> kMagic{'l', 'e', 'a', 'f', 's', 'e', 'a', 'm'};
 constexpr std::uint32_t kVersion1 = 1;
 
 template <class Element>
-std::uint32_t count(const std::vector<Element>& elements) {
+std::uint32_t size_of(const std::vector<Element>& elements) {
   return static_cast<std::uint32_t>(elements.size());
 }
 
@@ -65,8 +65,8 @@ void take(Reader& reader, std::vector<SeamVertex>& vertices) {
 }  // namespace
 
 void write_seam(const Seam& seam, std::ostream& stream) {
-  write_record(stream, kMagic, kVersion1, seam.own_vertices, count(seam.borrowed), count(seam.lent),
-               count(seam.components), count(seam.loose.positions));
+  write_record(stream, kMagic, kVersion1, seam.own_vertices, size_of(seam.borrowed),
+               size_of(seam.lent), size_of(seam.components), size_of(seam.loose.positions));
   for (const auto* vertices : {&seam.borrowed, &seam.lent}) {
     for (const SeamVertex& v : *vertices) {
       write_record(stream, v.cell, v.patch, v.vertex, v.component);

@@ -19,7 +19,7 @@ constexpr double kMostCoordinate = 1 << 30;
 /// Whatever the file system says.
 constexpr double kMostTiles = 1e7;
 
-double tiles_in(const Box& box, double side) {
+double number_of_tiles(const Box& box, double side) {
   const auto along = [&](double low, double high) {
     return std::floor(high / side) - std::floor(low / side) + 1;
   };
@@ -54,7 +54,7 @@ void check_tile_count(const Scene& scene, std::span<const LeafSet> models,
     const Box box = reached_box(tree, leaves.bounds, reach, voxel_size);
     all.include(box.low);
     all.include(box.high);
-    tiles += tiles_in(box, side);
+    tiles += number_of_tiles(box, side);
   }
   if (farthest(all) / voxel_size > kMostCoordinate) {
     throw Error(ErrorCode::usage,
@@ -63,7 +63,7 @@ void check_tile_count(const Scene& scene, std::span<const LeafSet> models,
                 "Raise --voxel-size, or move the scene to the origin.");
   }
   // Trees share tiles: there are no more than in the box around all.
-  check_room_for_tiles(std::min(tiles, tiles_in(all, side)), voxel_size, folder);
+  check_room_for_tiles(std::min(tiles, number_of_tiles(all, side)), voxel_size, folder);
 }
 
 void check_room_for_tiles(double tiles, double voxel_size, const std::filesystem::path& folder) {

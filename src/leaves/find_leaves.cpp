@@ -22,8 +22,6 @@
 namespace leafhull {
 namespace {
 
-Vec3f to_vec3f(const Eigen::Vector3d& v) { return Vec3f(Vec3d(v.x(), v.y(), v.z())); }
-
 void check(const LeafOptions& options) {
   if (!(options.scale > 0) || !std::isfinite(options.scale)) {
     throw Error(ErrorCode::usage, "--leaf-scale is not a positive number",

@@ -8,6 +8,8 @@
 namespace leafhull {
 
 inline Eigen::Vector3d to_eigen(const Vec3f& v) { return {v.x, v.y, v.z}; }
+inline Vec3d to_vec3d(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+inline Vec3f to_vec3f(const Eigen::Vector3d& v) { return Vec3f(to_vec3d(v)); }
 
 /// An instance's transform, taken apart.
 struct Placement {

@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "leaves/order.h"
+#include "leaves/placement.h"
 
 namespace leafhull {
 namespace {
@@ -15,9 +16,6 @@ namespace {
 constexpr double kSameArea = 0.01;
 /// Outlines are told apart by coordinates of this precision, in sides of their largest face.
 constexpr double kOutlineSteps = 4096;
-
-Vec3d to_vec3d(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
-Vec3f to_vec3f(const Eigen::Vector3d& v) { return Vec3f(to_vec3d(v)); }
 
 /// The faces that stand for a leaf: its front where it has a back that covers the same area.
 std::vector<std::size_t> faces_of_one_side(const LeafMesh& leaf, const Eigen::Vector3d& normal) {

@@ -15,11 +15,11 @@ namespace {
 /// Rounds of Lloyd's method; more even out little.
 constexpr int kRounds = 6;
 
-using Samples = std::span<const Eigen::Vector2d>;
+using Places = std::span<const Eigen::Vector2d>;
 
 /// Calls visit(members) for each of `count` parts of about equal size.
 template <class Visit>
-void halve(Samples samples, std::span<std::uint32_t> members, std::size_t count, Visit& visit) {
+void halve(Places samples, std::span<std::uint32_t> members, std::size_t count, Visit& visit) {
   if (members.empty()) return;
   if (count <= 1 || members.size() == 1) return visit(members);
   Eigen::Array2d low = samples[members.front()], high = low;
@@ -42,7 +42,7 @@ void halve(Samples samples, std::span<std::uint32_t> members, std::size_t count,
 class NearestSeed {
  public:
   /// `edge` of a cell: about what seeds are apart.
-  NearestSeed(Samples seeds, double edge) : seeds_(seeds), edge_(edge) {
+  NearestSeed(Places seeds, double edge) : seeds_(seeds), edge_(edge) {
     Eigen::Array2d high = seeds.front();
     low_ = high;
     for (const Eigen::Vector2d& seed : seeds) {
@@ -99,7 +99,7 @@ class NearestSeed {
     return static_cast<std::size_t>(cell(p[0], 0)) * size_[1] + cell(p[1], 1);
   }
 
-  Samples seeds_;
+  Places seeds_;
   double edge_;
   Eigen::Array2d low_;
   std::array<int, 2> size_{};
@@ -119,7 +119,7 @@ struct Sums {
   }
 };
 
-std::vector<Sums> sums_around(Samples seeds, Samples samples, double edge) {
+std::vector<Sums> sums_around(Places seeds, Places samples, double edge) {
   const NearestSeed nearest(seeds, edge);
   std::vector<Sums> sums(seeds.size());
   for (const Eigen::Vector2d& p : samples) {
@@ -131,7 +131,7 @@ std::vector<Sums> sums_around(Samples seeds, Samples samples, double edge) {
 
 /// What a seed is apart from its neighbours, about: the root of the area of a part, as far as the
 /// box around the samples tells.
-double spacing(Samples samples, std::size_t count) {
+double spacing(Places samples, std::size_t count) {
   Eigen::Array2d low = samples.front(), high = low;
   for (const Eigen::Vector2d& p : samples) {
     low = low.min(p.array());
@@ -145,7 +145,7 @@ double spacing(Samples samples, std::size_t count) {
 
 }  // namespace
 
-std::vector<FlatPart> cut_evenly(Samples samples, std::size_t count) {
+std::vector<FlatPart> cut_evenly(Places samples, std::size_t count) {
   std::vector<std::uint32_t> members(samples.size());
   std::iota(members.begin(), members.end(), 0u);
   std::vector<Eigen::Vector2d> seeds;

@@ -55,7 +55,7 @@ Camera towards(Viewpoint viewpoint, float aspect, float tan_half_view) {
 
 /// `include(plane)` shows each plane all that the picture holds.
 template <class Function>
-Camera frame(float aspect, float margin, Viewpoint viewpoint, Function&& include) {
+Camera framing(float aspect, float margin, Viewpoint viewpoint, Function&& include) {
   Camera camera = towards(viewpoint, aspect, kTanHalfView);
   Wedge horizontal(camera.right, camera.forward, camera.tan_x * (1 - 2 * margin));
   Wedge vertical(camera.up, camera.forward, camera.tan_y * (1 - 2 * margin));
@@ -71,7 +71,7 @@ Camera frame(float aspect, float margin, Viewpoint viewpoint, Function&& include
 
 Camera frame(std::span<const Vec3f> points, float aspect, float margin, float reach,
              Viewpoint viewpoint) {
-  return frame(aspect, margin, viewpoint, [&](Plane& plane) {
+  return framing(aspect, margin, viewpoint, [&](Plane& plane) {
     for (const Vec3f p : points) plane.include(p, reach);
   });
 }
@@ -81,7 +81,7 @@ Turntable turntable(std::span<const Vec3f> points, float aspect, float margin, f
   Box box;
   for (const Vec3f p : points) box.include(Vec3d(p));
   const Vec3f axis((box.low + box.high) / 2);
-  const Camera camera = frame(aspect, margin, viewpoint, [&](Plane& plane) {
+  const Camera camera = framing(aspect, margin, viewpoint, [&](Plane& plane) {
     for (const Vec3f p : points) {
       plane.include_turning({axis.x, p.y, axis.z}, std::hypot(p.x - axis.x, p.z - axis.z), reach);
     }

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "render/for_each.h"
 #include "render/light.h"
 #include "render/mesh_target.h"
 #include "render/sampling.h"
@@ -22,6 +23,7 @@ constexpr int kTile = 4;  // pixels of a square of kTile x kTile look in differe
 constexpr int kTurns = Surroundings::kTurns;
 static_assert(kTile * kTile == kTurns);
 constexpr std::size_t kBatch = 1 << 16;  // rays
+constexpr std::size_t kGrain = 256;      // that one thread takes at a time
 constexpr double kLookShare = 0.75;      // of the time, about; the rest is for edges
 
 /// How much of the light arrives at a point, 0..1.
@@ -35,14 +37,6 @@ struct Point {
   Vec3f position, normal;
   float per_reach;  ///< how far before or behind it another surface begins, inverted
 };
-
-template <class Function>
-void for_each(std::size_t count, Function&& function) {
-  constexpr std::size_t kGrain = 256;
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, kGrain), [&](const auto& some) {
-    for (std::size_t i = some.begin(); i != some.end(); ++i) function(i);
-  });
-}
 
 class BufferPainter {
  public:
@@ -161,14 +155,14 @@ class BufferPainter {
     const std::size_t count = std::size_t{kTurns} * tiles_across_ * rows;
     std::vector<Ray> rays(count);
     std::vector<std::uint8_t> turns(count);
-    for_each(count, [&](std::size_t i) {
+    for_each(count, kGrain, [&](std::size_t i) {
       const auto [x, y] = pixel_of(first, i);
       rays[i] = ray_through(x + 0.5f, y + 0.5f);
       turns[i] = static_cast<std::uint8_t>(i % kTurns);
     });
     const std::vector<Spot> spots = nearest(rays);
     const std::vector<Light> light = sample_light(spots, turns);
-    for_each(count, [&](std::size_t i) {
+    for_each(count, kGrain, [&](std::size_t i) {
       const Pixel pixel = pixel_of(first, i);
       if (!spots[i].hit() || !holds(pixel)) return;
       const std::size_t at = index(pixel);
@@ -268,14 +262,14 @@ class BufferPainter {
     const std::span samples =
         std::span(buffers_.samples).subspan(edge_rays_ * first, edge_rays_ * count);
     std::vector<Ray> rays(samples.size());
-    for_each(samples.size(), [&](std::size_t i) {
+    for_each(samples.size(), kGrain, [&](std::size_t i) {
       const auto [x, y] = pixel_at(edges[i / edge_rays_]);
       const Vec2f place = places_[i % edge_rays_];
       rays[i] = ray_through(x + place.x, y + place.y);
     });
     const std::vector<Spot> spots = nearest(rays);
     std::vector<std::uint8_t> lit(samples.size());
-    for_each(samples.size(), [&](std::size_t i) {
+    for_each(samples.size(), kGrain, [&](std::size_t i) {
       const Spot& spot = spots[i];
       EdgeSample& sample = samples[i];
       sample = {spot.object, depth_of(spot, rays[i]),
@@ -285,7 +279,7 @@ class BufferPainter {
       lit[i] = !spot.hit() || light_like(pixel_at(edges[i / edge_rays_]), sample);
     });
     light_alone(samples, spots, lit);
-    for_each(count,
+    for_each(count, kGrain,
              [&](std::size_t i) { cover(edges[i], samples.subspan(edge_rays_ * i, edge_rays_)); });
   }
 

@@ -7,20 +7,14 @@
 #include <array>
 #include <optional>
 
+#include "render/for_each.h"
 #include "render/light.h"
 #include "render/sampling.h"
 
 namespace leafhull::render {
 namespace {
 
-constexpr std::size_t kGrain = 64;  // rays that one thread takes at a time
-
-template <class Function>
-void for_each(std::size_t count, Function&& function) {
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, kGrain), [&](const auto& some) {
-    for (std::size_t i = some.begin(); i != some.end(); ++i) function(i);
-  });
-}
+constexpr std::size_t kRays = 64;  // that one thread takes at a time
 
 Spot spot_of(const Hit& hit) {
   const Look look = hit.surface->look;
@@ -45,7 +39,7 @@ void MeshTarget::closest(std::span<const Ray> rays, std::span<Spot> spots) const
 
 void MeshTarget::occluded(std::span<const Ray> rays, float reach,
                           std::span<std::uint8_t> answers) const {
-  for_each(rays.size(), [&](std::size_t i) {
+  for_each(rays.size(), kRays, [&](std::size_t i) {
     answers[i] = scene_.occluded(rays[i].origin, rays[i].direction, reach);
   });
 }
@@ -54,7 +48,7 @@ void MeshSurroundings::openness(std::span<const Spot> spots, std::span<const std
                                 std::span<float> open) const {
   const std::vector<Vec2f> directions = sobol_points(kTurns, 2);
   std::vector<Vec3f> towards(spots.size());
-  for_each(spots.size(), [&](std::size_t i) {
+  for_each(spots.size(), kRays, [&](std::size_t i) {
     if (spots[i].hit()) towards[i] = cosine_direction(spots[i].normal, directions[turns[i]]);
   });
   std::vector<Ray> rays;

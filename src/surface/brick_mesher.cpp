@@ -134,10 +134,10 @@ Role role_of(const GridCoord& brick, const SampleBox& own) {
   return upper ? Role::upper : Role::own;
 }
 
-class Mesher {
+class BrickMesher {
  public:
   /// `own` is whole without bounds.
-  Mesher(const Field& field, const SampleBox* own);
+  BrickMesher(const Field& field, const SampleBox* own);
   OwnedPolygons mesh();
 
  private:
@@ -160,7 +160,7 @@ class Mesher {
   std::vector<Role> roles_;
 };
 
-Mesher::Mesher(const Field& field, const SampleBox* own)
+BrickMesher::BrickMesher(const Field& field, const SampleBox* own)
     : negated_(field.negated()),
       iso_(field.iso_value()),
       bricks_(field.bricks().begin(), field.bricks().end()),
@@ -190,7 +190,7 @@ Mesher::Mesher(const Field& field, const SampleBox* own)
 }
 
 /// Walks through the bricks once for each direction, as both they and their neighbours ascend.
-void Mesher::find_neighbours(Index first, Index end) {
+void BrickMesher::find_neighbours(Index first, Index end) {
   const auto bricks = static_cast<Index>(bricks_.size());
   const GridAccessor negated = negated_.getConstAccessor();
   for (unsigned i = 0; i < 8; ++i) {
@@ -206,7 +206,7 @@ void Mesher::find_neighbours(Index first, Index end) {
   }
 }
 
-void Mesher::find_cells(Index b) {
+void BrickMesher::find_cells(Index b) {
   BrickCells& brick = cells_[b];
   std::array<std::array<std::uint64_t, 4>, kEdge + 1> inside;  // at +0 or +1 along y, z: bits 1, 0
   for (unsigned x = 0; x <= kEdge; ++x) {
@@ -249,7 +249,8 @@ void Mesher::find_cells(Index b) {
 }
 
 /// The number of the shape of the cell at `at`.
-unsigned Mesher::shape_of(unsigned inside, const GridCoord& at, const GridAccessor& negated) const {
+unsigned BrickMesher::shape_of(unsigned inside, const GridCoord& at,
+                               const GridAccessor& negated) const {
   const unsigned face = cell::kFaceMetTwice[inside];
   if (face == cell::kNoFace) return inside;
   GridCoord beyond = at;
@@ -261,7 +262,7 @@ unsigned Mesher::shape_of(unsigned inside, const GridCoord& at, const GridAccess
   return cell::kFaceMetTwice[inside_beyond] == (face ^ 1) ? inside + cell::kParted : inside;
 }
 
-Cube<float> Mesher::samples_of(const BrickCells& brick) const {
+Cube<float> BrickMesher::samples_of(const BrickCells& brick) const {
   Cube<float> samples;
   for (unsigned x = 0; x <= kEdge; ++x) {
     for (unsigned y = 0; y <= kEdge; ++y) {
@@ -274,7 +275,7 @@ Cube<float> Mesher::samples_of(const BrickCells& brick) const {
   return samples;
 }
 
-void Mesher::place_vertices(Index b, Vec3f* points) const {
+void BrickMesher::place_vertices(Index b, Vec3f* points) const {
   const GridCoord origin = bricks_[b]->origin();
   const Cube<float> samples = samples_of(cells_[b]);
   for_each_cell(cells_[b], [&](Cell at, unsigned x, unsigned y, unsigned z) {
@@ -300,7 +301,7 @@ void Mesher::place_vertices(Index b, Vec3f* points) const {
 }
 
 /// The quads around the lattice edges that end at the highest corners of the brick's cells.
-void Mesher::add_faces(const BrickCells& brick, Quad* faces) const {
+void BrickMesher::add_faces(const BrickCells& brick, Quad* faces) const {
   struct Vertices {
     Index first;
     std::uint16_t shape;
@@ -340,7 +341,7 @@ void Mesher::add_faces(const BrickCells& brick, Quad* faces) const {
   });
 }
 
-OwnedPolygons Mesher::mesh() {
+OwnedPolygons BrickMesher::mesh() {
   const auto bricks = static_cast<Index>(bricks_.size());
   tbb::parallel_for(tbb::blocked_range<Index>(0, bricks), [&](const auto& range) {
     find_neighbours(range.begin(), range.end());
@@ -406,10 +407,10 @@ void drop_unused(OwnedPolygons& part) {
 
 }  // namespace
 
-Polygons mesh_bricks(const Field& field) { return Mesher(field, nullptr).mesh().polygons; }
+Polygons mesh_bricks(const Field& field) { return BrickMesher(field, nullptr).mesh().polygons; }
 
 OwnedPolygons mesh_bricks(const Field& field, const SampleBox& own) {
-  OwnedPolygons part = Mesher(field, &own).mesh();
+  OwnedPolygons part = BrickMesher(field, &own).mesh();
   part.patches = patches_of(part.polygons.points);
   drop_unused(part);
   return part;

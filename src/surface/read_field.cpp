@@ -61,12 +61,12 @@ FloatGrid::Ptr read_grid(const fs::path& path) try {
   fail(path, std::string("cannot be read: ") + error.what(), "Give a whole OpenVDB file.");
 }
 
-struct Transform {
+struct GridMap {
   double voxel_size;
   Vec3d origin;
 };
 
-Transform transform_of(const FloatGrid& grid, const fs::path& file) {
+GridMap map_of(const FloatGrid& grid, const fs::path& file) {
   const openvdb::Mat4d m = grid.transform().baseMap()->getAffineMap()->getMat4();
   const double h = m(0, 0);
   for (int row = 0; row < 3; ++row) {
@@ -158,7 +158,7 @@ FieldFile read_field(const fs::path& file, std::optional<double> asked) {
     fail(file, "holds distances or another field, not a density that is 0 far away",
          "Give a fog volume, such as leafhull extract --save-field writes.");
   }
-  const auto [voxel_size, origin] = transform_of(*grid, file);
+  const auto [voxel_size, origin] = map_of(*grid, file);
   const double threshold = threshold_of(*grid, asked, file);
   openvdb::CoordBBox box;
   if (!grid->tree().evalLeafBoundingBox(box)) {

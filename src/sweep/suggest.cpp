@@ -16,7 +16,7 @@ constexpr std::array kErosions{0.02, 0.12, 0.25};
 constexpr std::array kRadii{1.5, 3.5, 9.0};
 /// Neighbours that differ by less in volume than this factor differ in erosion too, by so much.
 constexpr double kClearlyLarger = 1.15, kErosionStep = 0.05;
-constexpr int kPictureWidth = 320, kPictureHeight = 320;
+constexpr int kPictureEdge = 320;
 
 std::string percent(double share) {
   char text[32];
@@ -128,7 +128,7 @@ Suggestions suggest(const LeafSet& leaves, const Options& options, Device& devic
     if (volume(leaves.crown) > 0) {
       choice.dilated_share = choice.dilated_volume / volume(leaves.crown);
     }
-    pictures[i].picture = draw_shape(entry.mesh, frame, kPictureWidth, kPictureHeight);
+    pictures[i].picture = draw_shape(entry.mesh, frame, kPictureEdge, kPictureEdge);
     pictures[i].lines = label(choice);
     return true;
   };

@@ -11,26 +11,15 @@
 #include "leafhull/shape.h"
 #include "property/area_measures.h"
 #include "property/area_trees.h"
+#include "property/extractions.h"
 
 namespace leafhull {
 namespace {
 
+using test::at;
+using test::device;
 using test::Layers;
-
-Device& device() {
-  static Device device({});
-  return device;
-}
-
-Options at(Preset preset) {
-  Options options;
-  options.preset = preset;
-  return options;
-}
-
-Shape shape_of(const TreeModel& tree, const Options& options) {
-  return extract(find_leaves(tree, {}), options, device());
-}
+using test::shape_of;
 
 bool says(const std::vector<std::string>& warnings, std::string_view words) {
   return std::ranges::any_of(warnings, [&](const std::string& warning) {

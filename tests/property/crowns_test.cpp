@@ -13,27 +13,20 @@
 #include "leafhull/shape.h"
 #include "property/area_measures.h"
 #include "property/area_trees.h"
+#include "property/canopies.h"
+#include "property/extractions.h"
 
 namespace leafhull {
 namespace {
 
+using test::at;
+using test::canopy;
 using test::Corners;
+using test::device;
+using test::placed;
+using test::shape_of;
+using test::share_outside;
 using test::volume;
-
-Device& device() {
-  static Device device({});
-  return device;
-}
-
-Options at(Preset preset) {
-  Options options;
-  options.preset = preset;
-  return options;
-}
-
-Shape shape_of(const TreeModel& tree, const Options& options) {
-  return extract(find_leaves(tree, {}), options, device());
-}
 
 /// A lumpy crown of 80 faces, about 4 wide and 5 high.
 TreeModel low_poly_crown() {
@@ -53,14 +46,6 @@ std::vector<Corners> faces_of(const TreeModel& tree) {
     faces.push_back({Vec3d(p.positions[a]), Vec3d(p.positions[b]), Vec3d(p.positions[c])});
   }
   return faces;
-}
-
-/// The share of a tree's leaf area that a mesh leaves outside, by places of the test's own.
-double share_outside(const TreeModel& tree, const Shape& shape) {
-  const std::vector<Vec3d> places = test::places_on(tree, 10000);
-  const test::Solid solid(test::corners_of(shape.mesh), 2 * shape.report.voxel_size);
-  const auto outside = std::ranges::count_if(places, [&](Vec3d p) { return !solid.holds(p); });
-  return static_cast<double>(outside) / static_cast<double>(places.size());
 }
 
 TEST(ClosedCrown, IsOneFullPieceAboutAsLargeAsItself) {
@@ -105,7 +90,7 @@ TEST(ClosedCrown, IsErodedByWhatACoverageLeavesOut) {
     Options options = at(Preset::standard);
     options.coverage = coverage;
     const Shape shape = shape_of(tree, options);
-    EXPECT_NEAR(share_outside(tree, shape), 1 - coverage, 0.02);
+    EXPECT_NEAR(share_outside(test::places_on(tree, 10000), shape), 1 - coverage, 0.02);
     EXPECT_NEAR(shape.report.covered, coverage, 0.005);
     EXPECT_EQ(shape.report.counts.components, 1u);
   }
@@ -119,7 +104,7 @@ TEST(ClosedCrown, TakesInNearlyAllWhereThatIsAskedFor) {
     Options options = at(Preset::draft);
     options.coverage = coverage;
     const Shape shape = shape_of(tree, options);
-    EXPECT_LT(share_outside(tree, shape), 0.01);
+    EXPECT_LT(share_outside(test::places_on(tree, 10000), shape), 0.01);
     EXPECT_GT(volume(shape.mesh), last);
     last = volume(shape.mesh);
   }
@@ -180,14 +165,8 @@ TEST(ClosedCrown, OfCubesIsOneCrown) {
   EXPECT_LT(volume(shape.mesh), 1.6 * 48);
 }
 
-PlacedTree placed(Vec3d position, double yaw, double scale) {
-  const auto c = static_cast<float>(scale * std::cos(yaw)),
-             s = static_cast<float>(scale * std::sin(yaw));
-  return {position, {c, 0, s, 0, static_cast<float>(scale), 0, -s, 0, c}, 0};
-}
-
 /// The triangles of all tiles of a forest of such trees, in world coordinates.
-std::vector<Corners> canopy(const PlacedTree& tree, const Options& options, int edge) {
+std::vector<Corners> canopy_of_crown(const PlacedTree& tree, const Options& options, int edge) {
   Scene scene;
   scene.models.resize(1);
   scene.trees = {tree};
@@ -196,14 +175,7 @@ std::vector<Corners> canopy(const PlacedTree& tree, const Options& options, int 
   const std::vector<Options> shapes{options};
   const ForestLevel level =
       prepare_level(0, models, uses, shapes, *options.voxel_size, nullptr, device());
-  std::vector<Corners> all;
-  const TilePlan plan(scene, level, edge);
-  for (std::size_t t = 0; t < plan.size(); ++t) {
-    const TileTask task{plan.tiles()[t], edge, plan.trees(t)};
-    const auto part = test::corners_of(compute_tile(scene, level, task, device()).mesh);
-    all.insert(all.end(), part.begin(), part.end());
-  }
-  return all;
+  return canopy(scene, level, edge);
 }
 
 TEST(ClosedCrown, IsTheSameInAForest) {
@@ -214,9 +186,10 @@ TEST(ClosedCrown, IsTheSameInAForest) {
   options.voxel_size = 0.08;
   const double alone = volume(shape_of(low_poly_crown(), options).mesh);
   for (const int edge : {32, 512}) {
-    EXPECT_NEAR(volume(canopy(placed({}, 0, 1), options, edge)) / alone, 1, 0.002);
+    EXPECT_NEAR(volume(canopy_of_crown(placed(0, {}, 0, 1), options, edge)) / alone, 1, 0.002);
   }
-  EXPECT_NEAR(volume(canopy(placed({7, 1, -3}, 0.6, 1), options, 64)) / alone, 1, 0.005);
+  EXPECT_NEAR(volume(canopy_of_crown(placed(0, {7, 1, -3}, 0.6, 1), options, 64)) / alone, 1,
+              0.005);
 }
 
 }  // namespace

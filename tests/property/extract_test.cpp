@@ -10,19 +10,16 @@
 
 #include "leafhull/error.h"
 #include "leafhull/shape.h"
+#include "property/area_measures.h"
+#include "property/extractions.h"
 
 namespace leafhull {
 namespace {
 
-Device& device() {
-  static Device device({});
-  return device;
-}
-
-const LeafSet& ash() {
-  static const LeafSet leaves = find_leaves(read_tree(LEAFHULL_EXAMPLES "/ash.glb"), {});
-  return leaves;
-}
+using test::ash;
+using test::device;
+using test::expect_same;
+using test::volume;
 
 LeafSet leaf_set(std::vector<LeafVertex> vertices) {
   LeafSet leaves;
@@ -59,14 +56,6 @@ Options of_style(Style style, Preset preset = Preset::draft) {
   return options;
 }
 
-double volume(const Mesh& mesh) {
-  double sum = 0;
-  for (const auto& [a, b, c] : mesh.triangles) {
-    sum += dot(Vec3d(mesh.positions[a]), cross(Vec3d(mesh.positions[b]), Vec3d(mesh.positions[c])));
-  }
-  return sum / 6;
-}
-
 double area(const Mesh& mesh) {
   double sum = 0;
   for (const auto& [a, b, c] : mesh.triangles) {
@@ -87,17 +76,6 @@ bool closed(const Mesh& mesh) {
   return std::all_of(balance.begin(), balance.end(), [&](const auto& edge) {
     return balance.count({edge.first.second, edge.first.first}) == 1;
   });
-}
-
-void expect_same(const Shape& a, const Shape& b) {
-  EXPECT_EQ(a.mesh.positions, b.mesh.positions);
-  EXPECT_EQ(a.mesh.normals, b.mesh.normals);
-  EXPECT_EQ(a.mesh.triangles, b.mesh.triangles);
-  EXPECT_EQ(a.report.metrics.dilated_voxels, b.report.metrics.dilated_voxels);
-  EXPECT_EQ(a.report.metrics.inside_voxels, b.report.metrics.inside_voxels);
-  EXPECT_EQ(a.report.metrics.on_voxels, b.report.metrics.on_voxels);
-  EXPECT_EQ(a.report.metrics.off_site_exact, b.report.metrics.off_site_exact);
-  EXPECT_EQ(a.report.metrics.off_site_sampled, b.report.metrics.off_site_sampled);
 }
 
 /// The area of an ellipsoid of half-axes a, b, c by the midpoint rule over its parameters.

@@ -12,12 +12,17 @@
 
 #include "forest/compute_tile.h"
 #include "forest/plan.h"
+#include "property/canopies.h"
+#include "property/extractions.h"
 
 namespace leafhull {
 namespace {
 
+using test::device;
+using test::placed;
+
 using Point = std::array<double, 6>;  // position and normal
-using Corners = std::array<Point, 3>;
+using FacePoints = std::array<Point, 3>;
 
 /// A crown of quads on a sphere shell, thick enough to be a surface.
 LeafSet crown(unsigned seed, int leaves, double radius) {
@@ -44,12 +49,6 @@ LeafSet crown(unsigned seed, int leaves, double radius) {
   return set;
 }
 
-PlacedTree placed(std::uint32_t model, Vec3d position, double yaw, double scale) {
-  const auto c = static_cast<float>(scale * std::cos(yaw)),
-             s = static_cast<float>(scale * std::sin(yaw));
-  return {position, {c, 0, s, 0, static_cast<float>(scale), 0, -s, 0, c}, model};
-}
-
 Scene grove(Vec3d origin) {
   Scene scene;
   scene.models.resize(2);
@@ -65,11 +64,6 @@ Scene grove(Vec3d origin) {
   return scene;
 }
 
-Device& device() {
-  static Device device{DeviceOptions{}};
-  return device;
-}
-
 Options options(std::optional<double> radius_max = {}) {
   Options o;
   o.points = PointSource::vertices;  // the crowns below have nothing else
@@ -80,7 +74,7 @@ Options options(std::optional<double> radius_max = {}) {
 
 struct Surface {
   std::set<Point> points;
-  std::multiset<Corners> triangles;
+  std::multiset<FacePoints> triangles;
   std::uint64_t own = 0;
 };
 
@@ -108,7 +102,7 @@ Surface surface_of(const Scene& scene, const ForestLevel& level, int edge) {
       }
     }
     for (const auto& t3 : tile.mesh.triangles) {
-      Corners corners{point(tile.mesh, t3[0]), point(tile.mesh, t3[1]), point(tile.mesh, t3[2])};
+      FacePoints corners{point(tile.mesh, t3[0]), point(tile.mesh, t3[1]), point(tile.mesh, t3[2])};
       std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
       all.triangles.insert(corners);
     }
@@ -119,7 +113,7 @@ Surface surface_of(const Scene& scene, const ForestLevel& level, int edge) {
 /// Edges that are not met once in each direction.
 std::size_t open_edges(const Surface& surface) {
   std::map<std::pair<Point, Point>, int> edges;
-  for (const Corners& t : surface.triangles) {
+  for (const FacePoints& t : surface.triangles) {
     for (int i = 0; i < 3; ++i) {
       ++edges[{t[i], t[(i + 1) % 3]}];
       --edges[{t[(i + 1) % 3], t[i]}];
@@ -138,7 +132,7 @@ ForestLevel level_of(const Scene& scene, int number = 0, const Options& resolved
   return number == 0 ? finest : prepare_level(number, models, uses, shapes, 0.2, &finest, device());
 }
 
-void expect_same(const Surface& a, const Surface& b) {
+void expect_same_surface(const Surface& a, const Surface& b) {
   EXPECT_EQ(a.own, b.own);
   EXPECT_EQ(a.points, b.points);
   EXPECT_EQ(a.triangles, b.triangles);
@@ -152,7 +146,7 @@ TEST(Forest, TilesMeetWithoutCracksAndDoNotDependOnTheCut) {
   EXPECT_EQ(open_edges(whole), 0u);
   for (const int edge : {32, 64, 96}) {
     SCOPED_TRACE(edge);
-    expect_same(surface_of(scene, level, edge), whole);
+    expect_same_surface(surface_of(scene, level, edge), whole);
   }
 }
 
@@ -161,7 +155,7 @@ TEST(Forest, FarFromTheOriginToo) {
   const ForestLevel level = level_of(scene);
   const Surface whole = surface_of(scene, level, 512);
   EXPECT_EQ(open_edges(whole), 0u);
-  expect_same(surface_of(scene, level, 64), whole);
+  expect_same_surface(surface_of(scene, level, 64), whole);
 }
 
 TEST(Forest, WithControlOverTheScene) {
@@ -169,7 +163,7 @@ TEST(Forest, WithControlOverTheScene) {
   ForestLevel level = level_of(scene);
   level.scope = ControlScope::scene;
   level.scene_statistics = DensityStatistics{.mean = 8, .variance = 9, .p1 = 8, .p2 = 14};
-  expect_same(surface_of(scene, level, 64), surface_of(scene, level, 512));
+  expect_same_surface(surface_of(scene, level, 64), surface_of(scene, level, 512));
 }
 
 /// Kernels around a tile have their radii from trees that are farther than any kernel of them.
@@ -184,7 +178,7 @@ TEST(Forest, WithControlByTreesThatReachOnlyItsNeighbours) {
   level.scene_statistics = DensityStatistics{.mean = 8, .variance = 9, .p1 = 300, .p2 = 2000};
   const Surface whole = surface_of(scene, level, 512);
   EXPECT_GT(whole.triangles.size(), 1000u);
-  expect_same(surface_of(scene, level, 32), whole);
+  expect_same_surface(surface_of(scene, level, 32), whole);
 }
 
 TEST(Forest, OnALevelOfAbstraction) {
@@ -193,7 +187,7 @@ TEST(Forest, OnALevelOfAbstraction) {
   const Surface whole = surface_of(scene, level, 512);
   EXPECT_GT(whole.triangles.size(), 500u);
   EXPECT_EQ(open_edges(whole), 0u);
-  expect_same(surface_of(scene, level, 32), whole);
+  expect_same_surface(surface_of(scene, level, 32), whole);
 }
 
 }  // namespace

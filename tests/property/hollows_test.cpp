@@ -9,20 +9,21 @@
 #include "leafhull/shape.h"
 #include "leafhull/tree.h"
 #include "pipeline/direct_surface.h"
+#include "property/area_measures.h"
+#include "property/extractions.h"
 
 namespace leafhull {
 namespace {
 
-constexpr double kRadius = 10, kReach = 2, kThreshold = 1.5;
+using test::device;
+using test::expect_same;
+using test::volume;
 
-Device& device() {
-  static Device device({});
-  return device;
-}
+constexpr double kRadius = 10, kReach = 2, kThreshold = 1.5;
 
 /// A crown whose leaves are a sphere and nothing within, with a hole at the top of `open`
 /// half-width.
-LeafSet crown(double open = 0) {
+LeafSet hollow_crown(double open = 0) {
   constexpr int kLeaves = 3000;
   LeafSet leaves;
   leaves.leaf_count = 1;
@@ -52,29 +53,11 @@ Options hollows(Hollows hollows, double threshold = kThreshold) {
   return options;
 }
 
-double volume(const Mesh& mesh) {
-  double sum = 0;
-  for (const auto& [a, b, c] : mesh.triangles) {
-    sum += dot(Vec3d(mesh.positions[a]), cross(Vec3d(mesh.positions[b]), Vec3d(mesh.positions[c])));
-  }
-  return sum / 6;
-}
-
 double sphere(double radius) { return 4.0 / 3 * std::numbers::pi * std::pow(radius, 3); }
 
-void expect_same(const Shape& a, const Shape& b) {
-  EXPECT_EQ(a.mesh.positions, b.mesh.positions);
-  EXPECT_EQ(a.mesh.normals, b.mesh.normals);
-  EXPECT_EQ(a.mesh.triangles, b.mesh.triangles);
-  EXPECT_EQ(a.report.metrics.dilated_voxels, b.report.metrics.dilated_voxels);
-  EXPECT_EQ(a.report.metrics.inside_voxels, b.report.metrics.inside_voxels);
-  EXPECT_EQ(a.report.metrics.on_voxels, b.report.metrics.on_voxels);
-  EXPECT_EQ(a.report.metrics.off_site_sampled, b.report.metrics.off_site_sampled);
-}
-
 TEST(Hollows, OfACrownAreFilled) {
-  const Shape kept = extract(crown(), hollows(Hollows::keep), device());
-  const Shape filled = extract(crown(), hollows(Hollows::fill), device());
+  const Shape kept = extract(hollow_crown(), hollows(Hollows::keep), device());
+  const Shape filled = extract(hollow_crown(), hollows(Hollows::fill), device());
   EXPECT_EQ(kept.report.counts.components, 2u) << "an outer and an inner wall";
   EXPECT_EQ(filled.report.counts.components, 1u);
   double outer = 0;
@@ -94,9 +77,9 @@ TEST(Hollows, FillingLeavesTheOuterWallAlone) {
   Options options = hollows(Hollows::keep);
   for (const Mesher mesher : {Mesher::vdb, Mesher::bricks}) {
     options.mesher = mesher;
-    const Mesh kept = extract(crown(), options, device()).mesh;
+    const Mesh kept = extract(hollow_crown(), options, device()).mesh;
     options.hollows = Hollows::fill;
-    const Mesh filled = extract(crown(), options, device()).mesh;
+    const Mesh filled = extract(hollow_crown(), options, device()).mesh;
     options.hollows = Hollows::keep;
     std::vector<Vec3f> outer, normals;
     for (std::size_t v = 0; v < kept.positions.size(); ++v) {
@@ -111,8 +94,8 @@ TEST(Hollows, FillingLeavesTheOuterWallAlone) {
 }
 
 TEST(Hollows, ThatAreOpenStay) {
-  expect_same(extract(crown(4), hollows(Hollows::fill), device()),
-              extract(crown(4), hollows(Hollows::keep), device()));
+  expect_same(extract(hollow_crown(4), hollows(Hollows::fill), device()),
+              extract(hollow_crown(4), hollows(Hollows::keep), device()));
 }
 
 TEST(Hollows, AreFilledInADenseFieldAsInTheBand) {
@@ -122,9 +105,9 @@ TEST(Hollows, AreFilledInADenseFieldAsInTheBand) {
       Options options = hollows(Hollows::fill);
       options.mesher = mesher;
       options.adaptivity = adaptivity;
-      const Shape band = extract(crown(), options, device());
+      const Shape band = extract(hollow_crown(), options, device());
       options.dense = true;
-      const Shape dense = extract(crown(), options, device());
+      const Shape dense = extract(hollow_crown(), options, device());
       EXPECT_GT(dense.report.counts.evaluated_voxels, band.report.counts.evaluated_voxels);
       expect_same(dense, band);
     }
@@ -133,9 +116,9 @@ TEST(Hollows, AreFilledInADenseFieldAsInTheBand) {
 
 TEST(Hollows, NeitherThreadsNorRunsMatter) {
   Device one({.choice = "", .threads = 1, .variant = ""});
-  const Shape shape = extract(crown(), hollows(Hollows::fill), device());
-  expect_same(extract(crown(), hollows(Hollows::fill), device()), shape);
-  expect_same(extract(crown(), hollows(Hollows::fill), one), shape);
+  const Shape shape = extract(hollow_crown(), hollows(Hollows::fill), device());
+  expect_same(extract(hollow_crown(), hollows(Hollows::fill), device()), shape);
+  expect_same(extract(hollow_crown(), hollows(Hollows::fill), one), shape);
 }
 
 TEST(Hollows, OfARealTreeAreTheSameInADenseField) {
@@ -162,8 +145,8 @@ TEST(Hollows, OfASeriesAreThoseOfEachEntry) {
     }
   }
   std::size_t entries = 0;
-  extract_series(crown(), series, device(), [&](std::size_t index, SeriesEntry&& entry) {
-    const Shape alone = extract(crown(), series[index], device());
+  extract_series(hollow_crown(), series, device(), [&](std::size_t index, SeriesEntry&& entry) {
+    const Shape alone = extract(hollow_crown(), series[index], device());
     EXPECT_EQ(entry.mesh.positions, alone.mesh.positions);
     EXPECT_EQ(entry.mesh.triangles, alone.mesh.triangles);
     EXPECT_EQ(entry.report.metrics.inside_voxels, alone.report.metrics.inside_voxels);
@@ -177,7 +160,7 @@ TEST(Hollows, OfASeriesAreThoseOfEachEntry) {
 
 TEST(Hollows, RaysFromWithinPassTheirWalls) {
   const auto distance = [&](Hollows each) {
-    const DirectSurface surface(crown(), hollows(each), device());
+    const DirectSurface surface(hollow_crown(), hollows(each), device());
     const VoxelRay ray{Vec3f(surface.lattice().local({0, 0, 0})), {0.6f, 0.8f, 0}};
     VoxelHit hit{};
     surface.caster().closest({&ray, 1}, {&hit, 1});

@@ -10,17 +10,12 @@
 #include <vector>
 
 #include "leafhull/shape.h"
+#include "property/area_measures.h"
 
 namespace leafhull {
 namespace {
 
-double volume(const Mesh& mesh) {
-  double sum = 0;
-  for (const auto& [a, b, c] : mesh.triangles) {
-    sum += dot(Vec3d(mesh.positions[a]), cross(Vec3d(mesh.positions[b]), Vec3d(mesh.positions[c])));
-  }
-  return sum / 6;
-}
+using test::volume;
 
 /// The greatest distance from a vertex of `from` to the nearest one of `to` in the same or the next
 /// voxel, in voxels; at most 1.

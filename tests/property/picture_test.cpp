@@ -11,6 +11,7 @@
 #include <string>
 
 #include "leafhull/render.h"
+#include "property/extractions.h"
 #include "render/buffers.h"
 
 namespace leafhull {
@@ -18,13 +19,9 @@ namespace {
 
 using render::Buffers;
 using render::Object;
+using test::device;
 
-Device& device() {
-  static Device device({});
-  return device;
-}
-
-std::shared_ptr<const TreeModel> tree_of(const std::filesystem::path& file) {
+std::shared_ptr<const TreeModel> shared_tree(const std::filesystem::path& file) {
   return std::make_shared<const TreeModel>(read_tree(file));
 }
 
@@ -81,7 +78,7 @@ Agreement agreement(const Buffers& a, const Buffers& b) {
 
 void expect_direct_as_mesh(const std::filesystem::path& file, Style style) {
   SCOPED_TRACE(file.filename().string() + ", " + std::string(name(style)));
-  const auto tree = tree_of(file);
+  const auto tree = shared_tree(file);
   Options options;
   options.style = style;
   // The mesh takes finer voxels to come as near to the density where radii are small.
@@ -196,15 +193,15 @@ Motion motion(const Subject& before, const Subject& after, double degrees) {
 }
 
 TEST(WatercolourInMotion, GrainStaysOverATurn) {
-  const Subject ash = subject_of(tree_of(std::filesystem::path(LEAFHULL_EXAMPLES) / "ash.glb"), {},
-                                 Surfacing::direct);
+  const Subject ash = subject_of(shared_tree(std::filesystem::path(LEAFHULL_EXAMPLES) / "ash.glb"),
+                                 {}, Surfacing::direct);
   EXPECT_LT(motion(ash, ash, 1).of_grain(), 0.25);
   // What stays changes with the motion; what swims changes whatever the motion.
   EXPECT_LT(motion(ash, ash, 0.1).of_grain(), 0.05);
 }
 
 TEST(WatercolourInMotion, GrainStaysInASwayingTree) {
-  const auto still = tree_of(std::filesystem::path(LEAFHULL_EXAMPLES) / "ash.glb");
+  const auto still = shared_tree(std::filesystem::path(LEAFHULL_EXAMPLES) / "ash.glb");
   const Frame frame = frame_of(find_leaves(*still, {}), 0);
   const Subject before = subject_of(still, {}, Surfacing::direct, frame);
   const auto leaning = [&](double slope) {

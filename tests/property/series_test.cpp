@@ -9,19 +9,13 @@
 
 #include "leafhull/error.h"
 #include "leafhull/tree.h"
+#include "property/extractions.h"
 
 namespace leafhull {
 namespace {
 
-Device& device() {
-  static Device device({});
-  return device;
-}
-
-const LeafSet& ash() {
-  static const LeafSet leaves = find_leaves(read_tree(LEAFHULL_EXAMPLES "/ash.glb"), {});
-  return leaves;
-}
+using test::ash;
+using test::device;
 
 Options thin(double threshold) {
   Options options;

@@ -19,21 +19,20 @@
 #include "points/samples.h"
 #include "property/area_measures.h"
 #include "property/area_trees.h"
+#include "property/canopies.h"
+#include "property/extractions.h"
 
 namespace leafhull {
 namespace {
 
+using test::ash;
+using test::canopy;
+using test::device;
+using test::expect_same;
+using test::placed;
+using test::share_outside;
+
 constexpr double kError = 0.01;
-
-Device& device() {
-  static Device device({});
-  return device;
-}
-
-const LeafSet& ash() {
-  static const LeafSet leaves = find_leaves(read_tree(LEAFHULL_EXAMPLES "/ash.glb"), {});
-  return leaves;
-}
 
 const LeafSet& more_cards() {
   static const LeafSet leaves = find_leaves(test::card_tree(300), {});
@@ -60,13 +59,13 @@ void expect_kept(const Report& report, const Options& options) {
   EXPECT_NEAR(found.dilation, options.dilation.value_or(found.dilation), kError);
 }
 
-struct Kind {
+struct SliderTree {
   const char* name;
   const LeafSet& (*leaves)();
   std::vector<std::pair<double, double>> reachable;  ///< erosion and dilation
   std::vector<double> dilations;                     ///< with any erosion from 0.05 to 0.2
 };
-const Kind kKinds[] = {
+const SliderTree kSliderTrees[] = {
     {"ash",
      ash,
      {{0.05, 0.25}, {0.05, 0.4}, {0.1, 0.55}, {0.2, 0.3}, {0.2, 0.5}, {0.4, 0.3}},
@@ -76,8 +75,8 @@ const Kind kKinds[] = {
      {{0.05, 0.55}, {0.05, 0.7}, {0.1, 0.55}, {0.2, 0.55}, {0.3, 0.5}},
      {0.55, 0.65}}};
 
-class Sliders : public testing::TestWithParam<Kind> {};
-INSTANTIATE_TEST_SUITE_P(Trees, Sliders, testing::ValuesIn(kKinds),
+class Sliders : public testing::TestWithParam<SliderTree> {};
+INSTANTIATE_TEST_SUITE_P(Trees, Sliders, testing::ValuesIn(kSliderTrees),
                          [](const auto& kind) { return std::string(kind.param.name); });
 
 TEST_P(Sliders, AreKept) {
@@ -132,15 +131,9 @@ TEST_P(Sliders, ADilationIsThatOf64Voxels) {
   }
 }
 
-double share_outside(std::span<const Vec3d> places, const Shape& shape) {
-  const test::Solid solid(test::corners_of(shape.mesh), 2 * shape.report.voxel_size);
-  const auto outside = std::ranges::count_if(places, [&](Vec3d p) { return !solid.holds(p); });
-  return static_cast<double>(outside) / static_cast<double>(places.size());
-}
-
 TEST(SlidersOfCards, AnErosionIsThatOfTheMesh) {
   const std::vector<Vec3d> places = test::places_on(test::card_tree(), 10000);
-  for (const auto& [erosion, dilation] : kKinds[1].reachable) {
+  for (const auto& [erosion, dilation] : kSliderTrees[1].reachable) {
     SCOPED_TRACE(testing::Message() << erosion << ' ' << dilation);
     const Shape shape = extract(cards(), asked(erosion, dilation, Preset::standard), device());
     EXPECT_NEAR(share_outside(places, shape), erosion, 0.02);
@@ -150,7 +143,7 @@ TEST(SlidersOfCards, AnErosionIsThatOfTheMesh) {
 
 TEST(SlidersOfAnAsh, AnErosionIsThatOfTheMesh) {
   const std::vector<Vec3d> places = samples_of(*ash().sheets, ash().crown).places;
-  for (const auto& [erosion, dilation] : kKinds[0].reachable) {
+  for (const auto& [erosion, dilation] : kSliderTrees[0].reachable) {
     SCOPED_TRACE(testing::Message() << erosion << ' ' << dilation);
     const Shape shape = extract(ash(), asked(erosion, dilation, Preset::standard), device());
     EXPECT_NEAR(share_outside(places, shape), erosion, 0.02);
@@ -214,10 +207,8 @@ TEST_P(Sliders, AFinerLatticeIsTheSameShape) {
   }
 }
 
-void expect_same(const Shape& a, const Shape& b) {
-  EXPECT_EQ(a.mesh.positions, b.mesh.positions);
-  EXPECT_EQ(a.mesh.normals, b.mesh.normals);
-  EXPECT_EQ(a.mesh.triangles, b.mesh.triangles);
+void expect_same_with_sliders(const Shape& a, const Shape& b) {
+  expect_same(a, b);
   EXPECT_EQ(a.report.threshold, b.report.threshold);
   EXPECT_EQ(a.report.options.radius_max, b.report.options.radius_max);
   EXPECT_EQ(a.report.metrics.erosion, b.report.metrics.erosion);
@@ -232,10 +223,10 @@ TEST_P(Sliders, AreTheSameBytesDenseOnAnyThreadsAndAgain) {
     Options options = asked(erosion, dilation);
     const Shape shape = extract(leaves, options, device());
     EXPECT_FALSE(shape.mesh.triangles.empty());
-    expect_same(extract(leaves, options, device()), shape);
-    expect_same(extract(leaves, options, one), shape);
+    expect_same_with_sliders(extract(leaves, options, device()), shape);
+    expect_same_with_sliders(extract(leaves, options, one), shape);
     options.dense = true;
-    expect_same(extract(leaves, options, device()), shape);
+    expect_same_with_sliders(extract(leaves, options, device()), shape);
   }
 }
 
@@ -247,7 +238,7 @@ TEST_P(Sliders, WhatIsFoundGivesTheShapeAgain) {
     options.preset = Preset::draft;
     options.radius_max = found.report.options.radius_max;
     options.threshold = found.report.threshold;
-    expect_same(extract(leaves, options, device()), found);
+    expect_same_with_sliders(extract(leaves, options, device()), found);
   }
 }
 
@@ -360,14 +351,10 @@ struct Forest {
   ForestLevel level;
 };
 
-PlacedTree placed(std::uint32_t model, Vec3d position, float scale) {
-  return {position, {scale, 0, 0, 0, scale, 0, 0, 0, scale}, model};
-}
-
 Forest forest_of(const Options& options) {
   Forest forest;
   forest.scene.models.resize(2);
-  forest.scene.trees = {placed(0, {}, 1), placed(1, {20, 0, 0}, 1)};
+  forest.scene.trees = {placed(0, {}, 0, 1), placed(1, {20, 0, 0}, 0, 1)};
   forest.models = {cards(), more_cards()};
   const std::vector<ModelUse> uses = model_uses(forest.scene);
   forest.shapes = shapes_of(forest.models, uses, options, device());
@@ -377,16 +364,10 @@ Forest forest_of(const Options& options) {
 }
 
 /// The triangles of a forest near its first tree, or near the other.
-std::vector<test::Corners> canopy(const Forest& forest, bool other) {
+std::vector<test::Corners> canopy_of(const Forest& forest, bool other) {
   std::vector<test::Corners> all;
-  constexpr int kEdge = 128;
-  const TilePlan plan(forest.scene, forest.level, kEdge);
-  for (std::size_t t = 0; t < plan.size(); ++t) {
-    const TileTask task{plan.tiles()[t], kEdge, plan.trees(t)};
-    for (const auto& corners :
-         test::corners_of(compute_tile(forest.scene, forest.level, task, device()).mesh)) {
-      if ((corners[0].x > 10) == other) all.push_back(corners);
-    }
+  for (const auto& corners : canopy(forest.scene, forest.level, 128)) {
+    if ((corners[0].x > 10) == other) all.push_back(corners);
   }
   return all;
 }
@@ -409,7 +390,7 @@ TEST(SlidersOfAForest, AreThoseOfEachOfItsTrees) {
     // Alone, T is corrected for what the lattice does not show.
     EXPECT_NEAR(*forest.shapes[other].radius_max / *alone.report.options.radius_max, 1, 0.05);
     EXPECT_GT(test::volume(alone.mesh), 5);
-    EXPECT_NEAR(test::volume(canopy(forest, other)) / test::volume(alone.mesh), 1, 0.05);
+    EXPECT_NEAR(test::volume(canopy_of(forest, other)) / test::volume(alone.mesh), 1, 0.05);
   }
 }
 

@@ -12,19 +12,19 @@
 #include "leafhull/error.h"
 #include "leafhull/render.h"
 #include "leafhull/sweep.h"
+#include "property/area_measures.h"
+#include "property/extractions.h"
 #include "render/buffers.h"
 
 namespace leafhull {
 namespace {
 
+using test::device;
+using test::volume;
+
 using TreePointer = std::shared_ptr<const TreeModel>;
 
-Device& device() {
-  static Device device({});
-  return device;
-}
-
-TreePointer ash() {
+TreePointer shared_ash() {
   static const auto tree = std::make_shared<const TreeModel>(
       read_tree(std::filesystem::path(LEAFHULL_EXAMPLES) / "ash.glb"));
   return tree;
@@ -52,18 +52,11 @@ TreePointer with_strays(const TreeModel& tree, std::size_t count, Vec3d crowns) 
   return changed;
 }
 
-double volume(const Mesh& mesh) {
-  double sum = 0;
-  for (const auto& [a, b, c] : mesh.triangles) {
-    sum += dot(Vec3d(mesh.positions[a]), cross(Vec3d(mesh.positions[b]), Vec3d(mesh.positions[c])));
-  }
-  return sum / 6;
-}
-
 class Strays : public testing::TestWithParam<Vec3d> {
  protected:
   static constexpr std::size_t kCount = 20;
-  const TreePointer tree_ = ash(), littered_ = with_strays(*ash(), kCount, GetParam());
+  const TreePointer tree_ = shared_ash(),
+                    littered_ = with_strays(*shared_ash(), kCount, GetParam());
   const LeafSet leaves_ = find_leaves(*tree_, {}), all_ = find_leaves(*littered_, {});
 };
 
@@ -138,9 +131,9 @@ TEST_P(Strays, LeaveNoRoomInSuggestions) {
 
 TEST(FarStrays, KeepTheShapeAsFarAsTheLatticeCounts) {
   const auto shape_with = [&](double crowns) {
-    return extract(find_leaves(*with_strays(*ash(), 20, {0, crowns, 0}), {}), {}, device());
+    return extract(find_leaves(*with_strays(*shared_ash(), 20, {0, crowns, 0}), {}), {}, device());
   };
-  const Shape plain = extract(find_leaves(*ash(), {}), {}, device());
+  const Shape plain = extract(find_leaves(*shared_ash(), {}), {}, device());
   EXPECT_NEAR(volume(shape_with(1e4).mesh) / volume(plain.mesh), 1, 0.02);
   try {
     shape_with(1e9);
@@ -153,7 +146,7 @@ TEST(FarStrays, KeepTheShapeAsFarAsTheLatticeCounts) {
 
 // Who fills a LeafSet by hand may forget it.
 TEST(Crown, MustBeSet) {
-  LeafSet leaves = find_leaves(*ash(), {});
+  LeafSet leaves = find_leaves(*shared_ash(), {});
   leaves.crown = {};
   EXPECT_THROW(extract(leaves, {}, device()), Error);
 }

@@ -8,16 +8,14 @@
 #include <cmath>
 #include <random>
 
+#include "property/extractions.h"
 #include "study/band.h"
 #include "study/plan.h"
 
 namespace leafhull {
 namespace {
 
-Device& device() {
-  static Device device({});
-  return device;
-}
+using test::device;
 
 /// Leaves of every direction in a ball, as many as `count`.
 LeafSet ball(std::size_t count, float radius_major) {
@@ -43,7 +41,7 @@ Report extracted(const LeafSet& leaves, const StudyRow& row, const Reading& read
   return extract(leaves, options_of(row, reading), device()).report;
 }
 
-void expect_same(const Metrics& a, const Metrics& b) {
+void expect_same_metrics(const Metrics& a, const Metrics& b) {
   EXPECT_EQ(a.dilated_voxels, b.dilated_voxels);
   EXPECT_EQ(a.inside_voxels, b.inside_voxels);
   EXPECT_EQ(a.on_voxels, b.on_voxels);
@@ -66,11 +64,12 @@ TEST(StudyTree, IsWhatSingleExtractionsAre) {
   for (const ReadingStudy& study : tree.readings) {
     for (const StudyRow& row : study.table1) {
       ASSERT_FALSE(row.empty);
-      expect_same(row.metrics, extracted(leaves, row, study.reading).metrics);
+      expect_same_metrics(row.metrics, extracted(leaves, row, study.reading).metrics);
     }
     for (const auto& figure : {study.figure11, study.figure13, study.figure15}) {
-      expect_same(figure[2].metrics, study.table1[2].metrics);
-      expect_same(figure.back().metrics, extracted(leaves, figure.back(), study.reading).metrics);
+      expect_same_metrics(figure[2].metrics, study.table1[2].metrics);
+      expect_same_metrics(figure.back().metrics,
+                          extracted(leaves, figure.back(), study.reading).metrics);
     }
     ASSERT_EQ(study.table2.size(), 3U);
     for (const StudyTime& time : study.table2) {
@@ -118,14 +117,14 @@ TEST(StudyBand, LosesWhatThePaperLoses) {
   EXPECT_EQ(band.uncontrolled.threshold, band.threshold);
 
   const Report isotropic = extracted(leaves, band.isotropic, kBandReading);
-  expect_same(band.isotropic.metrics, isotropic.metrics);
+  expect_same_metrics(band.isotropic.metrics, isotropic.metrics);
   EXPECT_DOUBLE_EQ(band.evenness, std::sqrt(isotropic.density.variance) / isotropic.density.mean);
   const LeafSet fitted = scaled(leaves, band.leaf_scale);
-  expect_same(band.uncontrolled.metrics,
-              extracted(fitted, band.uncontrolled, kBandReading).metrics);
+  expect_same_metrics(band.uncontrolled.metrics,
+                      extracted(fitted, band.uncontrolled, kBandReading).metrics);
   // The first band is that of Eqs. (9) and (10), which a row has by itself.
   const StudyRow& usual = band.by_deviation.front().row;
-  expect_same(usual.metrics, extracted(fitted, usual, kBandReading).metrics);
+  expect_same_metrics(usual.metrics, extracted(fitted, usual, kBandReading).metrics);
 }
 
 TEST(StudyBand, GoesFromOneEndToTheOther) {

@@ -8,8 +8,6 @@
 namespace recount {
 namespace {
 
-double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
 /// How far the axes u, v, n are from a right-handed orthonormal frame.
 double frame_error(const Point& u, const Point& v, const Point& n) {
   double error = std::max({std::abs(dot(u, v)), std::abs(dot(v, n)), std::abs(dot(n, u))});

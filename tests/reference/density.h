@@ -8,6 +8,10 @@ namespace recount {
 
 using Point = std::array<double, 3>;
 
+inline double dot(const Point& a, const Point& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
 /// A density function. `scaled_axes` are the unit axes u, v, n, each divided by its radius, so that
 /// xi is the squared length of the offset in them; `extents` is the half size of the tight
 /// axis-aligned box of its support. D = weight (1 - xi)^k. SPEC: 2; Source: Eqs. (1), (3), (4).

@@ -14,8 +14,6 @@ Point cross(const Point& a, const Point& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
 double length(const Point& a) { return std::sqrt(dot(a, a)); }
 
 std::size_t count_unmatched_edges(const Ply& mesh) {

@@ -12,34 +12,21 @@
 #include "device/evaluator.h"
 #include "leafhull/error.h"
 #include "unit/density_reference.h"
+#include "unit/device_variants.h"
 
 namespace leafhull {
 namespace {
 
 using reference::random_kernels;
 using reference::sphere;
+using test::device;
 
-Device& device(const std::string& variant) {
-  static Device vector({.choice = "", .threads = 0, .variant = "vector"});
-  static Device work_item({.choice = "", .threads = 0, .variant = "work-item"});
-  return variant == "vector" ? vector : work_item;
-}
-
-class EvaluatorTest : public testing::TestWithParam<std::tuple<const char*, int>> {
- protected:
-  Device& chosen() { return device(std::get<0>(GetParam())); }
-  int falloff() { return std::get<1>(GetParam()); }
-};
-
-std::string name_of(const testing::TestParamInfo<EvaluatorTest::ParamType>& test) {
-  const bool vector = std::string(std::get<0>(test.param)) == "vector";
-  return (vector ? "VectorK" : "WorkItemK") + std::to_string(std::get<1>(test.param));
-}
+class EvaluatorTest : public test::VariantTest {};
 
 INSTANTIATE_TEST_SUITE_P(Variants, EvaluatorTest,
                          testing::Combine(testing::Values("vector", "work-item"),
                                           testing::Values(1, 2, 3)),
-                         name_of);
+                         test::name_of);
 
 TEST_P(EvaluatorTest, SamplesAgreeWithFloat64) {
   for (const Vec3d corner : {Vec3d{}, Vec3d{1e4, -2e4, 3e3}}) {

@@ -12,12 +12,14 @@
 #include "device/evaluator.h"
 #include "device/ray_caster.h"
 #include "unit/density_reference.h"
+#include "unit/device_variants.h"
 
 namespace leafhull {
 namespace {
 
 using reference::random_kernels;
 using reference::sphere;
+using test::device;
 
 constexpr double kThreshold = 0.5;
 
@@ -60,12 +62,6 @@ struct Subject {
   }
 };
 
-Device& device(const std::string& variant) {
-  static Device vector({.choice = "", .threads = 0, .variant = "vector"});
-  static Device work_item({.choice = "", .threads = 0, .variant = "work-item"});
-  return variant == "vector" ? vector : work_item;
-}
-
 /// Rays from a sphere of radius `far` around `middle` through points of a box of half edge
 /// `spread`.
 std::vector<VoxelRay> random_rays(std::size_t count, Vec3f middle, float far, float spread) {
@@ -82,21 +78,12 @@ std::vector<VoxelRay> random_rays(std::size_t count, Vec3f middle, float far, fl
   return rays;
 }
 
-class RaysTest : public testing::TestWithParam<std::tuple<const char*, int>> {
- protected:
-  Device& chosen() { return device(std::get<0>(GetParam())); }
-  int falloff() { return std::get<1>(GetParam()); }
-};
-
-std::string name_of(const testing::TestParamInfo<RaysTest::ParamType>& test) {
-  const bool vector = std::string(std::get<0>(test.param)) == "vector";
-  return (vector ? "VectorK" : "WorkItemK") + std::to_string(std::get<1>(test.param));
-}
+class RaysTest : public test::VariantTest {};
 
 INSTANTIATE_TEST_SUITE_P(Variants, RaysTest,
                          testing::Combine(testing::Values("vector", "work-item"),
                                           testing::Values(1, 2, 3)),
-                         name_of);
+                         test::name_of);
 
 TEST_P(RaysTest, MeetASphereWhereItIs) {
   // One kernel: N = w (1 - r^2)^k is 0.5 at a radius by hand. A heavy one rises in far less than

@@ -9,10 +9,11 @@
 namespace leafhull {
 namespace {
 
-using Json = nlohmann::json;
+using AnyJson = nlohmann::json;
 
-Json report_of(const ForestSummary& summary, const ForestOptions& options = {}) {
-  return Json::parse(forest_report_json(summary, options, {"stand.csv", {"leafhull", "forest"}}));
+AnyJson report_of(const ForestSummary& summary, const ForestOptions& options = {}) {
+  return AnyJson::parse(
+      forest_report_json(summary, options, {"stand.csv", {"leafhull", "forest"}}));
 }
 
 TEST(ForestReport, SaysWhatTheRunDid) {
@@ -31,22 +32,22 @@ TEST(ForestReport, SaysWhatTheRunDid) {
   summary.seconds = {{"models", 1}, {"tiles", 2}, {"tiles", 0.5}, {"total", 4}};
   summary.warnings = {"a tree has a scale of 0"};
 
-  const Json report = report_of(summary);
+  const AnyJson report = report_of(summary);
   EXPECT_EQ(report["schema"], "leafhull-forest-report/1");
   EXPECT_EQ(report["input"], "stand.csv");
-  EXPECT_EQ(report["command"], Json({"leafhull", "forest"}));
-  EXPECT_EQ(report["scene"], Json({{"trees", 2000}, {"models", 30}, {"skipped", 2}}));
-  EXPECT_EQ(report["counts"], Json({{"leaf_vertices", 1'500'000'000},
-                                    {"tiles", 12},
-                                    {"empty", 1},
-                                    {"mesh_vertices", 10},
-                                    {"mesh_triangles", 20}}));
+  EXPECT_EQ(report["command"], AnyJson({"leafhull", "forest"}));
+  EXPECT_EQ(report["scene"], AnyJson({{"trees", 2000}, {"models", 30}, {"skipped", 2}}));
+  EXPECT_EQ(report["counts"], AnyJson({{"leaf_vertices", 1'500'000'000},
+                                       {"tiles", 12},
+                                       {"empty", 1},
+                                       {"mesh_vertices", 10},
+                                       {"mesh_triangles", 20}}));
   EXPECT_EQ(report["resumed"], 5);
   EXPECT_EQ(report["remaining"], 3);
-  EXPECT_EQ(report["seconds"], Json({{"models", 1.0}, {"tiles", 2.5}, {"total", 4.0}}));
+  EXPECT_EQ(report["seconds"], AnyJson({{"models", 1.0}, {"tiles", 2.5}, {"total", 4.0}}));
   EXPECT_EQ(report["peak_memory_bytes"], std::uint64_t{3} << 30);
-  EXPECT_EQ(report["warnings"], Json({"a tree has a scale of 0"}));
-  EXPECT_EQ(report["tiles"], Json::array());
+  EXPECT_EQ(report["warnings"], AnyJson({"a tree has a scale of 0"}));
+  EXPECT_EQ(report["tiles"], AnyJson::array());
 }
 
 TEST(ForestReport, HasARowForEachTile) {
@@ -64,20 +65,20 @@ TEST(ForestReport, HasARowForEachTile) {
                    .resident_bytes = 10,
                    .rank = 11},
                   {.level = 2}};
-  const Json tiles = report_of(summary)["tiles"];
+  const AnyJson tiles = report_of(summary)["tiles"];
   ASSERT_EQ(tiles.size(), 2U);
-  EXPECT_EQ(tiles[0], Json({{"level", 1},
-                            {"x", -2},
-                            {"y", 3},
-                            {"z", 4},
-                            {"leaf_points", 5},
-                            {"gathered", 6},
-                            {"evaluated_voxels", 7},
-                            {"vertices", 8},
-                            {"triangles", 9},
-                            {"seconds", 0.5},
-                            {"resident_bytes", 10},
-                            {"rank", 11}}));
+  EXPECT_EQ(tiles[0], AnyJson({{"level", 1},
+                               {"x", -2},
+                               {"y", 3},
+                               {"z", 4},
+                               {"leaf_points", 5},
+                               {"gathered", 6},
+                               {"evaluated_voxels", 7},
+                               {"vertices", 8},
+                               {"triangles", 9},
+                               {"seconds", 0.5},
+                               {"resident_bytes", 10},
+                               {"rank", 11}}));
   EXPECT_EQ(tiles[1]["level"], 2);
 }
 
@@ -85,7 +86,7 @@ TEST(ForestReport, SaysWithWhichOptions) {
   ForestOptions options;
   options.shape.style = Style::paper_thin;
   options.shape.voxel_size = 0.25;
-  const Json plain = report_of({}, options)["options"];
+  const AnyJson plain = report_of({}, options)["options"];
   EXPECT_EQ(plain["style"], "paper-thin");
   EXPECT_EQ(plain["threshold"], 2.0) << "what the style sets is said too";
   EXPECT_EQ(plain["voxel_size"], 0.25);
@@ -102,16 +103,16 @@ TEST(ForestReport, SaysWithWhichOptions) {
   options.range = TileRange{2, 4};
   options.single = "stand.ply";
   options.levels = 3;
-  const Json set = report_of({}, options)["options"];
+  const AnyJson set = report_of({}, options)["options"];
   EXPECT_EQ(set["tile"], 64);
-  EXPECT_EQ(set["tile_range"], Json({2, 4}));
+  EXPECT_EQ(set["tile_range"], AnyJson({2, 4}));
   EXPECT_EQ(set["single"], "stand.ply");
   EXPECT_EQ(set["levels"], 3);
 }
 
 TEST(ForestReport, NamesThatAreNoUtf8DoNotBreakIt) {
   const std::string text = forest_report_json({}, {}, {"st\xff.csv", {}});
-  EXPECT_TRUE(Json::accept(text)) << text;
+  EXPECT_TRUE(AnyJson::accept(text)) << text;
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ const std::vector<PlacedTree> kTrees{
     {.position = {1e3, -19, 8}, .linear = {0, -1.4f, 0, 1.4f, 0, 0, 0, 0, 1.4f}},
     {.position = {1e3, -20, 8}}};
 
-Vec3d placed(const PlacedTree& tree, Vec3d p) { return TreeMap(tree)(p); }
+Vec3d carried_by(const PlacedTree& tree, Vec3d p) { return TreeMap(tree)(p); }
 
 /// D(p) of a kernel on a lattice, p in voxels.
 double density_of(const LatticeKernel& k, Vec3d p, int falloff) {
@@ -49,7 +49,7 @@ TEST(TreeMap, CarriesAKernelWithItsWeight) {
         for (int i = 0; i < 20; ++i) {
           const Vec3d p = kernel.centre + Vec3d(unit(random), unit(random), unit(random));
           const double n = reference::density(std::span(&kernel, 1), p, k);
-          EXPECT_NEAR(density_of(carried, lattice.local(placed(tree, p)), k), n,
+          EXPECT_NEAR(density_of(carried, lattice.local(carried_by(tree, p)), k), n,
                       3e-5 * static_cast<double>(kernel.weight));
         }
       }
@@ -81,7 +81,7 @@ TEST(PlacedKernels, AddUpToTheDensitiesOfTheTrees) {
     int above = 0;
     for (int i = 0; i < 300; ++i) {
       const Vec3d in_model(unit(random), unit(random), unit(random));
-      const Vec3d p = placed(kTrees[static_cast<std::size_t>(i) % 3], in_model);
+      const Vec3d p = carried_by(kTrees[static_cast<std::size_t>(i) % 3], in_model);
       double expected = 0, near = 0;
       for (const PlacedTree& tree : kTrees) {
         // Back to the model: the columns of A^-1 from those of A.

@@ -8,12 +8,11 @@
 #include "glb_builder.h"
 #include "input/gltf.h"
 #include "leafhull/tree.h"
+#include "read_built.h"
 #include "temporary_folder.h"
 
 namespace leafhull::test {
 namespace {
-
-TreeModel read(const GlbBuilder& builder) { return read_gltf(builder.glb(), "t.glb", {}); }
 
 Vec3d at(const Instance& instance, Vec3f p) {
   const auto row = [&](int i) {

@@ -6,6 +6,7 @@
 
 #include "glb_builder.h"
 #include "input/gltf.h"
+#include "read_built.h"
 #include "temporary_folder.h"
 
 namespace leafhull::test {
@@ -19,8 +20,6 @@ GlbBuilder textured() {
   b.add_node("n", b.add_mesh("m", {square(material)}));
   return b;
 }
-
-TreeModel read(const GlbBuilder& b) { return read_gltf(b.glb(), "t.glb", {}); }
 
 TEST(Images, DecodesTheBaseColourToRgba) {
   GlbBuilder b = textured();

@@ -15,14 +15,14 @@
 namespace leafhull::test {
 namespace {
 
-TreeModel read(const std::string& text) {
+TreeModel read_lines(const std::string& text) {
   const auto* bytes = reinterpret_cast<const std::uint8_t*>(text.data());
   return read_obj({bytes, text.size()}, "t.obj");
 }
 
 std::string error_of(const std::string& text) {
   try {
-    read(text);
+    read_lines(text);
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ErrorCode::input);
     EXPECT_FALSE(error.remedy().empty());
@@ -69,7 +69,7 @@ TEST(Polygon, ManyCornersAreQuick) {
 }
 
 TEST(Obj, NamesPartsAndMaterials) {
-  const TreeModel tree = read(
+  const TreeModel tree = read_lines(
       "o birch\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
       "g trunk\nusemtl bark\nf 1 2 3\n"
       "g crown\nusemtl birch leaf\nf 1 2 3 4\nusemtl bark\nf 2 3 4\n");
@@ -84,23 +84,24 @@ TEST(Obj, NamesPartsAndMaterials) {
 }
 
 TEST(Obj, ReadsNormalsUvsAndRelativeIndices) {
-  const TreeModel tree = read(
+  const TreeModel tree = read_lines(
       "v 0 0 0\nv 1 0 0\nv 1 1 0\nvt 0 0.25\nvt 1 0\nvt 1 1\nvn 0 0 1\n"
       "f -3/-3/-1 -2/-2/-1 -1/-1/-1\n");
   const Primitive& p = tree.primitives[0];
   EXPECT_EQ(p.positions, (std::vector<Vec3f>{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}));
   EXPECT_EQ(p.uvs, (std::vector<Vec2f>{{0, 0.75f}, {1, 1}, {1, 0}}));  // v down
   EXPECT_EQ(p.normals, std::vector<Vec3f>(3, Vec3f(0, 0, 1)));
-  EXPECT_TRUE(read("v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n").primitives[0].uvs.empty());
+  EXPECT_TRUE(read_lines("v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n").primitives[0].uvs.empty());
 }
 
 TEST(Obj, ReadsNumbersHoweverTheyAreWritten) {
-  const TreeModel tree = read("v\t+1 .5  -2.\r  v 1e1 1E+2 1e-1 0.5\r\nv 0 0 0 # last\nf 1 2 3\n");
+  const TreeModel tree =
+      read_lines("v\t+1 .5  -2.\r  v 1e1 1E+2 1e-1 0.5\r\nv 0 0 0 # last\nf 1 2 3\n");
   EXPECT_EQ(tree.primitives[0].positions, (std::vector<Vec3f>{{1, .5, -2}, {10, 100, .1f}, {}}));
 }
 
 TEST(Obj, KeepsValuesThatAreNotFinite) {
-  const TreeModel tree = read(
+  const TreeModel tree = read_lines(
       "v 0 0 0\nv 1 0 0\nv 1 1 0\nvt 0.5\nvt nan 0\nvt 1 1\nvn 0 0 1\nvn 1 x 0\nvn 0 1 0\n"
       "f 1/1/1 2/2/2 3/3/3\n");
   const Primitive& p = tree.primitives[0];
@@ -112,7 +113,8 @@ TEST(Obj, KeepsValuesThatAreNotFinite) {
 }
 
 TEST(Obj, KeepsItsPrecisionFarFromTheOrigin) {
-  const TreeModel tree = read("v 10000.0001 0 0\nv 10000.0002 0 0\nv 10000 0.0003 0\nf 1 2 3\n");
+  const TreeModel tree =
+      read_lines("v 10000.0001 0 0\nv 10000.0002 0 0\nv 10000 0.0003 0\nf 1 2 3\n");
   const double origin = tree.instances[0].to_world[0][3];
   const Primitive& p = tree.primitives[0];
   EXPECT_NEAR(origin + p.positions[0].x, 10000.0001, 1e-9);

@@ -40,6 +40,7 @@ inline std::vector<std::uint8_t> png(int width, int height, std::span<const std:
   chunk("IHDR", header);
 
   Bytes scanlines;
+  scanlines.reserve(std::size_t(height) * (1 + std::size_t(width) * 4));
   for (int row = 0; row < height; ++row) {
     scanlines.push_back(0);
     const auto pixels = rgba.subspan(std::size_t(row) * width * 4, std::size_t(width) * 4);

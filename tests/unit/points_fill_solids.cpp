@@ -17,9 +17,13 @@
 #include "points/fill_solids.h"
 #include "points/leaf_points.h"
 #include "property/area_trees.h"
+#include "unit/points_measures.h"
 
 namespace leafhull {
 namespace {
+
+using test::area_of;
+using test::layers_at;
 
 using Triangles = std::vector<std::array<Vec3d, 3>>;
 
@@ -72,27 +76,10 @@ Triangles ball() {
   return triangles;
 }
 
-double area_of(const std::vector<LeafPoint>& points) {
-  double sum = 0;
-  for (const LeafPoint& point : points) sum += point.area;
-  return sum;
-}
-
 Vec3d centre_of(const std::vector<LeafPoint>& points) {
   Vec3d sum;
   for (const LeafPoint& point : points) sum = sum + point.position * point.area;
   return sum * (1 / area_of(points));
-}
-
-/// N of isotropic kernels of radius R, in doubles.
-double layers_at(const std::vector<LeafPoint>& points, Vec3d p, double radius) {
-  double n = 0;
-  for (const LeafPoint& point : points) {
-    const Vec3d d = p - point.position;
-    const double w = 1 - dot(d, d) / (radius * radius);
-    if (w > 0) n += 3 * point.area / (std::numbers::pi * radius * radius) * w * w;
-  }
-  return n;
 }
 
 double volume_of_cell(double radius) { return std::pow(0.28 * radius, 3); }

@@ -10,9 +10,13 @@
 #include "leaves/sheets.h"
 #include "leaves_models.h"
 #include "points/leaf_points.h"
+#include "unit/points_measures.h"
 
 namespace leafhull {
 namespace {
+
+using test::area_of;
+using test::layers_at;
 
 LeafPoints area_points(const LeafSet& leaves, double spacing) {
   return leafhull::area_points(leaves, spacing, 3 * spacing);
@@ -23,12 +27,6 @@ using test::masked;
 using test::tree_of;
 
 LeafSet leaves_of(const TreeModel& tree) { return find_leaves(tree, {}); }
-
-double area_of(const std::vector<LeafPoint>& points) {
-  double sum = 0;
-  for (const LeafPoint& point : points) sum += point.area;
-  return sum;
-}
 
 /// Every triangle as four, by the middles of its sides.
 Primitive quartered(const Primitive& whole) {
@@ -53,17 +51,6 @@ Primitive quartered(const Primitive& whole) {
     fine.triangles.push_back({first + 3, first + 4, first + 5});
   }
   return fine;
-}
-
-/// N of isotropic kernels of radius R in the plane z = 0, in doubles.
-double layers_at(const std::vector<LeafPoint>& points, Vec3d p, double radius) {
-  double n = 0;
-  for (const LeafPoint& point : points) {
-    const Vec3d d = p - point.position;
-    const double w = 1 - dot(d, d) / (radius * radius);
-    if (w > 0) n += 3 * point.area / (std::numbers::pi * radius * radius) * w * w;
-  }
-  return n;
 }
 
 TEST(LeafPoints, CountAndKeepTheAreaOfACard) {

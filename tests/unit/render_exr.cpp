@@ -34,16 +34,16 @@ class Bytes : public Imf::IStream {
   std::uint64_t at_ = 0;
 };
 
-struct Image {
+struct ReadImage {
   int width, height;
   std::map<std::string, std::vector<float>> channels;
 };
 
-Image decode(std::span<const std::uint8_t> bytes) {
+ReadImage decode(std::span<const std::uint8_t> bytes) {
   Bytes stream(bytes);
   Imf::InputFile file(stream);
   const auto window = file.header().dataWindow();
-  Image image{window.max.x + 1, window.max.y + 1, {}};
+  ReadImage image{window.max.x + 1, window.max.y + 1, {}};
   Imf::FrameBuffer slices;
   const Imf::ChannelList& list = file.header().channels();
   for (auto channel = list.begin(); channel != list.end(); ++channel) {
@@ -73,7 +73,7 @@ Buffers sample() {
 
 TEST(RenderExr, ComesBackAsItWas) {
   const Buffers buffers = sample();
-  Image image = decode(encode_exr(buffers));
+  ReadImage image = decode(encode_exr(buffers));
   EXPECT_EQ(image.width, 3);
   EXPECT_EQ(image.height, 2);
   EXPECT_EQ(image.channels.size(), 16u);
@@ -99,7 +99,7 @@ TEST(RenderExr, ComesBackAsItWas) {
 TEST(RenderExr, HoldsThePictureThatItIsGiven) {
   Picture picture{3, 2, std::vector<std::uint8_t>(18, 255)};
   picture.rgb[3] = 0, picture.rgb[4] = 188;
-  Image image = decode(encode_exr(sample(), picture));
+  ReadImage image = decode(encode_exr(sample(), picture));
   EXPECT_EQ(image.channels["R"], (std::vector<float>{1, 0, 1, 1, 1, 1}));
   EXPECT_NEAR(image.channels["G"][1], 0.5f, 0.005f);
   picture.height = 3;

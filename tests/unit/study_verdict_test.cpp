@@ -10,7 +10,7 @@
 namespace leafhull {
 namespace {
 
-using Counts = std::vector<std::uint64_t>;
+using Numbers = std::vector<std::uint64_t>;
 
 StudyRow row(std::uint64_t dilated, std::uint64_t off_site, bool empty = false) {
   StudyRow row;
@@ -21,7 +21,7 @@ StudyRow row(std::uint64_t dilated, std::uint64_t off_site, bool empty = false) 
 }
 
 /// L&D, UNCTRLED, CTRLED: dilated voxels and off-site vertices of each.
-ReadingStudy table1(const Counts& dilated, const Counts& off_site) {
+ReadingStudy table1(const Numbers& dilated, const Numbers& off_site) {
   ReadingStudy study;
   for (std::size_t i = 0; i < study.table1.size(); ++i) {
     study.table1[i] = row(dilated[i], off_site[i]);
@@ -31,7 +31,7 @@ ReadingStudy table1(const Counts& dilated, const Counts& off_site) {
 }
 
 std::vector<StudyRow> series(double StudyRow::*parameter, double first, double step,
-                             const Counts& dilated, const Counts& off_site) {
+                             const Numbers& dilated, const Numbers& off_site) {
   std::vector<StudyRow> rows;
   for (std::size_t i = 0; i < dilated.size(); ++i) {
     rows.push_back(row(dilated[i], off_site[i]));
@@ -40,27 +40,27 @@ std::vector<StudyRow> series(double StudyRow::*parameter, double first, double s
   return rows;
 }
 
-ReadingStudy figure11(const Counts& dilated, const Counts& off_site) {
+ReadingStudy figure11(const Numbers& dilated, const Numbers& off_site) {
   ReadingStudy study;
   study.figure11 = series(&StudyRow::threshold, 1.5, 0.5, dilated, off_site);
   return study;
 }
 
-ReadingStudy figure13(const Counts& dilated, const Counts& off_site) {
+ReadingStudy figure13(const Numbers& dilated, const Numbers& off_site) {
   ReadingStudy study;
   study.figure13 = series(&StudyRow::radius_max, 1.4, 0.1, dilated, off_site);
   return study;
 }
 
 /// Both with the same dilated voxels throughout.
-ReadingStudy figures11_and_13(const Counts& by_threshold, const Counts& by_radius) {
-  ReadingStudy study = figure13(Counts(by_radius.size(), 1), by_radius);
-  study.figure11 = figure11(Counts(by_threshold.size(), 1), by_threshold).figure11;
+ReadingStudy figures11_and_13(const Numbers& by_threshold, const Numbers& by_radius) {
+  ReadingStudy study = figure13(Numbers(by_radius.size(), 1), by_radius);
+  study.figure11 = figure11(Numbers(by_threshold.size(), 1), by_threshold).figure11;
   return study;
 }
 
 /// From the lowest lambda_R to the highest, as figures go.
-ReadingStudy figure15(const Counts& dilated, const Counts& off_site) {
+ReadingStudy figure15(const Numbers& dilated, const Numbers& off_site) {
   ReadingStudy study;
   study.figure15 = series(&StudyRow::flatness, 0.6, 0.1, dilated, off_site);
   return study;

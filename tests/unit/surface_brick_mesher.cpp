@@ -17,8 +17,6 @@
 namespace leafhull {
 namespace {
 
-constexpr Coord kLow{-16, -16, -16}, kHigh{16, 16, 16};
-
 /// Whether the faces around every vertex form one closed fan: each corner of a face leads on from
 /// one neighbour of the vertex to the next, and the way from any of them passes all.
 bool is_manifold(const Polygons& polygons) {
@@ -45,15 +43,6 @@ bool is_manifold(const Polygons& polygons) {
 std::ptrdiff_t euler_characteristic(const Polygons& polygons) {
   return static_cast<std::ptrdiff_t>(polygons.points.size()) -
          static_cast<std::ptrdiff_t>(polygons.faces.size());
-}
-
-double volume(const Polygons& polygons) {
-  double sum = 0;
-  for (const auto& [a, b, c] : triangulate(polygons)) {
-    sum +=
-        dot(Vec3d(polygons.points[a]), cross(Vec3d(polygons.points[b]), Vec3d(polygons.points[c])));
-  }
-  return sum / 6;
 }
 
 /// The corners of a cell that are inside.

@@ -20,8 +20,6 @@
 namespace leafhull {
 namespace {
 
-constexpr Coord kLow{-16, -16, -16}, kHigh{16, 16, 16};
-
 /// A cube of samples with what is at `holes` below T = 1.
 Field cube_without(const std::set<Coord>& holes) {
   const auto density = [&](Vec3d p) {
@@ -57,10 +55,10 @@ void expect_same_values(const Field& a, const Field& b) {
   EXPECT_EQ(a.inside().size(), b.inside().size());
 }
 
-/// A ball of radius 30, and a shell of it that is hollow within 20.
+/// A full_ball of radius 30, and a ball_shell of it that is hollow within 20.
 double depth(Vec3d p) { return 30 - length(p); }
-double ball(Vec3d p) { return 1 + std::min(depth(p), 5.0) / 4; }
-double shell(Vec3d p) { return 1 + std::min(depth(p), 10 - depth(p)) / 4; }
+double full_ball(Vec3d p) { return 1 + std::min(depth(p), 5.0) / 4; }
+double ball_shell(Vec3d p) { return 1 + std::min(depth(p), 10 - depth(p)) / 4; }
 
 constexpr Coord kBallLow{-48, -48, -48}, kBallHigh{48, 48, 48};
 
@@ -78,13 +76,13 @@ void expect_same_surface(const Field& a, const Field& b) {
 }
 
 TEST(Hollows, AShellBecomesABall) {
-  const Field hollow = band_of(shell, {1.0}, kBallLow, kBallHigh);
+  const Field hollow = band_of(ball_shell, {1.0}, kBallLow, kBallHigh);
   for (const Coord at : {Coord{0, 0, 0}, Coord{9, 3, 4}}) {  // two of its blocks
     ASSERT_FALSE(hollow.negated().tree().probeConstLeaf(openvdb::Coord(at.x, at.y, at.z)));
     ASSERT_FALSE(is_inside(hollow, at));
   }
   const Field filled = fill_hollows(hollow);
-  expect_same_surface(filled, band_of(ball, {1.0}, kBallLow, kBallHigh));
+  expect_same_surface(filled, band_of(full_ball, {1.0}, kBallLow, kBallHigh));
   for (const int x : {0, 19}) {  // a block and a sample of a brick
     EXPECT_EQ(filled.negated().tree().getValue(openvdb::Coord(x, 0, 0)), -1) << x;
     EXPECT_FALSE(is_inside(hollow, {x, 0, 0})) << "what others hold has changed";
@@ -95,14 +93,14 @@ TEST(Hollows, AShellBecomesABall) {
 }
 
 TEST(Hollows, ADenseFieldIsFilledLikeTheBand) {
-  const Field band = fill_hollows(band_of(shell, {1.0}, kBallLow, kBallHigh));
-  const Field dense = fill_hollows(field_of(shell, 1.0, kBallLow, kBallHigh));
+  const Field band = fill_hollows(band_of(ball_shell, {1.0}, kBallLow, kBallHigh));
+  const Field dense = fill_hollows(field_of(ball_shell, 1.0, kBallLow, kBallHigh));
   EXPECT_GT(dense.bricks().size(), band.bricks().size());
   expect_same_surface(dense, band);
 }
 
 TEST(Hollows, BricksKeepTheirOrder) {
-  const Field hollow = band_of(shell, {1.0}, kBallLow, kBallHigh);
+  const Field hollow = band_of(ball_shell, {1.0}, kBallLow, kBallHigh);
   const Field filled = fill_hollows(hollow);
   ASSERT_EQ(filled.bricks().size(), hollow.bricks().size());
   for (std::size_t b = 0; b < hollow.bricks().size(); ++b) {
@@ -113,7 +111,7 @@ TEST(Hollows, BricksKeepTheirOrder) {
 }
 
 TEST(Hollows, AFieldOfItsOwnIsNotCopied) {
-  Field hollow = band_of(shell, {1.0}, kBallLow, kBallHigh);
+  Field hollow = band_of(ball_shell, {1.0}, kBallLow, kBallHigh);
   const openvdb::FloatGrid* grid = &hollow.negated();
   const Field filled = fill_hollows(std::move(hollow));
   EXPECT_EQ(&filled.negated(), grid);
@@ -126,11 +124,11 @@ TEST(Hollows, ATunnelOneSampleWideLeadsOutside) {
       const auto along = [&](Vec3d p) { return side * (axis == 0 ? p.x : axis == 1 ? p.y : p.z); };
       const auto tunnel = [&](Vec3d p) {
         const double across = std::fabs(p.x) + std::fabs(p.y) + std::fabs(p.z) - along(p);
-        return along(p) > 0 && across == 0 ? 0.5 : shell(p);
+        return along(p) > 0 && across == 0 ? 0.5 : ball_shell(p);
       };
       const Field open = band_of(tunnel, {1.0}, kBallLow, kBallHigh);
       expect_as_it_was(open);
-      const auto plugged = [&](Vec3d p) { return along(p) == 24 ? shell(p) : tunnel(p); };
+      const auto plugged = [&](Vec3d p) { return along(p) == 24 ? ball_shell(p) : tunnel(p); };
       EXPECT_TRUE(is_inside(fill_hollows(band_of(plugged, {1.0}, kBallLow, kBallHigh)), {}));
     }
   }
@@ -200,13 +198,13 @@ TEST(Hollows, DiagonalContactDoesNotConnect) {
 TEST(Hollows, IslandsWithinVanish) {
   const auto islands = [](Vec3d p) {
     const double nearer = std::min(length(p - Vec3d(5, 5, 5)), length(p + Vec3d(4, 0, 4)));
-    return std::max(shell(p), 1 + (3.3 - nearer) / 4);
+    return std::max(ball_shell(p), 1 + (3.3 - nearer) / 4);
   };
   const Field hollow = band_of(islands, {1.0}, kBallLow, kBallHigh);
   Polygons before = mesh_bricks(hollow);
   EXPECT_EQ(drop_small_components(before, 0).kept, 4u);
   const Field filled = fill_hollows(hollow);
-  expect_same_surface(filled, band_of(ball, {1.0}, kBallLow, kBallHigh));
+  expect_same_surface(filled, band_of(full_ball, {1.0}, kBallLow, kBallHigh));
 }
 
 TEST(Hollows, AHollowWithinAnIslandWithinAHollow) {
@@ -218,9 +216,9 @@ TEST(Hollows, AHollowWithinAnIslandWithinAHollow) {
 
 TEST(Hollows, NothingChangesWhereThereIsNone) {
   expect_as_it_was(Field({}, 1.0));
-  expect_as_it_was(band_of(ball, {1.0}, kBallLow, kBallHigh));
-  expect_as_it_was(field_of(ball, 1.0, kBallLow, kBallHigh));
-  const auto bowl = [](Vec3d p) { return p.z > 5 ? 0.0 : shell(p); };
+  expect_as_it_was(band_of(full_ball, {1.0}, kBallLow, kBallHigh));
+  expect_as_it_was(field_of(full_ball, 1.0, kBallLow, kBallHigh));
+  const auto bowl = [](Vec3d p) { return p.z > 5 ? 0.0 : ball_shell(p); };
   expect_as_it_was(band_of(bowl, {1.0}, kBallLow, kBallHigh));
 }
 
@@ -240,7 +238,7 @@ TEST(Hollows, BricksFarApartNeedNoRoomBetween) {
 TEST(Hollows, EachThresholdHasItsOwn) {
   // At 1 the hollow is closed, at 1.5 a tunnel opens; at 2.5 nothing but the tunnel's rim is left.
   const auto tunnelled = [](Vec3d p) {
-    return p.x > 0 && p.y == 0 && p.z == 0 ? std::min(shell(p), 1.2) : shell(p);
+    return p.x > 0 && p.y == 0 && p.z == 0 ? std::min(ball_shell(p), 1.2) : ball_shell(p);
   };
   const std::vector<double> thresholds{1.0, 1.1, 1.5};
   const Field shared = band_of(tunnelled, thresholds, kBallLow, kBallHigh);
@@ -259,7 +257,7 @@ TEST(Hollows, EachThresholdHasItsOwn) {
 
 TEST(Hollows, WhatIsProvenForALowerThresholdIsOutsideAHigherOne) {
   // The core is inside at 1, and proven so; at 2 it belongs to the hollow.
-  const auto cored = [](Vec3d p) { return length(p) < 20 ? 1.5 : 2.0 * shell(p); };
+  const auto cored = [](Vec3d p) { return length(p) < 20 ? 1.5 : 2.0 * ball_shell(p); };
   const Field shared = band_of(cored, {1.0, 2.0}, kBallLow, kBallHigh);
   ASSERT_GT(shared.inside().size(), shared.at(2.0).inside().size());
   const Field filled = fill_hollows(shared.at(2.0));

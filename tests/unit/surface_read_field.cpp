@@ -20,7 +20,7 @@ namespace {
 constexpr double kThreshold = 2;
 
 /// A ball of radius 10 around `centre`, N falling by one per voxel.
-double ball(Vec3d p) {
+double ball_of_10(Vec3d p) {
   const Vec3d centre{12, 12, 12};
   return std::max(0.0, kThreshold + 10 - length(p - centre));
 }
@@ -57,7 +57,7 @@ Field sample() {
     for (int y = 0; y < 24; y += kBrickEdge) {
       for (int z = 0; z < 24; z += kBrickEdge) {
         if (x == 8 && y == 8 && z == 8) continue;
-        add_brick(field, ball, {x, y, z});
+        add_brick(field, ball_of_10, {x, y, z});
       }
     }
   }
@@ -90,8 +90,8 @@ openvdb::FloatGrid::Ptr foreign() {
   const openvdb::CoordBBox box({-2, -2, -2}, {20, 20, 20});
   for (auto at = box.begin(); at; ++at) {
     const openvdb::Coord c = *at;
-    grid->tree().setValue(c,
-                          static_cast<float>(ball({double(c.x()), double(c.y()), double(c.z())})));
+    grid->tree().setValue(
+        c, static_cast<float>(ball_of_10({double(c.x()), double(c.y()), double(c.z())})));
   }
   return grid;
 }

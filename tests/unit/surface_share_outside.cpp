@@ -19,10 +19,10 @@ namespace {
 
 using Density = std::function<double(Vec3d)>;
 
-constexpr Coord kLow{-24, -16, -16}, kHigh{24, 16, 16};
+constexpr Coord kFarLow{-24, -16, -16}, kFarHigh{24, 16, 16};
 
 /// 1 at its radius, 2 in the middle, falling outward.
-Density ball(Vec3d centre, double radius) {
+Density ball_around(Vec3d centre, double radius) {
   return [=](Vec3d p) {
     const Vec3d d = p - centre;
     return std::max(0.0, 2 - dot(d, d) / (radius * radius));
@@ -34,8 +34,8 @@ Density together(const Density& a, const Density& b) {
 }
 
 /// A ball with a round hollow in it.
-Density shell(double radius, Vec3d middle, double hollow) {
-  return [=, outer = ball({}, radius)](Vec3d p) {
+Density shell_around(double radius, Vec3d middle, double hollow) {
+  return [=, outer = ball_around({}, radius)](Vec3d p) {
     return std::min(outer(p), std::pow(length(p - middle) / hollow, 2));
   };
 }
@@ -48,11 +48,11 @@ double outside(const Field& field, std::span<const Vec3d> places, double least =
 }
 
 double outside(const Density& density, std::span<const Vec3d> places, double least = 0) {
-  return outside(field_of(density, 1, kLow, kHigh), places, least);
+  return outside(field_of(density, 1, kFarLow, kFarHigh), places, least);
 }
 
 TEST(ShareOutside, IsOfPlacesBelowT) {
-  const Density one = ball({0.3, 0.2, 0.1}, 8.4);
+  const Density one = ball_around({0.3, 0.2, 0.1}, 8.4);
   std::vector<Vec3d> places;
   std::size_t below = 0;
   for (double x = -12; x <= 12; x += 0.61) {
@@ -67,28 +67,28 @@ TEST(ShareOutside, IsOfPlacesBelowT) {
 
 TEST(ShareOutside, GoesByTheSamplesAroundIt) {
   const Density plane = [](Vec3d p) { return 1.25 - 0.1 * p.x; };
-  const Field field = field_of(plane, 1, kLow, kHigh);
+  const Field field = field_of(plane, 1, kFarLow, kFarHigh);
   const std::vector<Vec3d> places{{2.4, 0.1, 0.2}, {2.6, 0.1, 0.2}};
   EXPECT_EQ(share_outside(field, places, {}), 0.5);
 }
 
 TEST(ShareOutside, AHollowThatIsDroppedIsFilled) {
-  const Density hollow = shell(12, {3, 0, 0}, 3);
+  const Density hollow = shell_around(12, {3, 0, 0}, 3);
   const std::vector<Vec3d> places{{-5, 0, 0}, {-2, 0, 0}, {8, 0, 0}, {0, 8, 0}};
   EXPECT_EQ(outside(hollow, places), 0);
   EXPECT_EQ(outside(hollow, places, 0.5), 0);
 }
 
 TEST(ShareOutside, TakesInAHollowThatWasFilled) {
-  const Density hollow = shell(10, {}, 5);
+  const Density hollow = shell_around(10, {}, 5);
   const std::vector<Vec3d> places{{0, 0, 0}, {2, 1, -2}, {7, 0, 0}, {12, 0, 0}};
   EXPECT_EQ(outside(hollow, places), 0.75);
-  EXPECT_EQ(outside(fill_hollows(field_of(hollow, 1, kLow, kHigh)), places), 0.25);
+  EXPECT_EQ(outside(fill_hollows(field_of(hollow, 1, kFarLow, kFarHigh)), places), 0.25);
 }
 
 TEST(ShareOutside, CountsWhatTheLatticeDoesNotSee) {
   // Much smaller than a cell, between its corners.
-  const Density speck = together(ball({-8, 0, 0}, 5), ball({8.5, 0.5, 0.5}, 0.4));
+  const Density speck = together(ball_around({-8, 0, 0}, 5), ball_around({8.5, 0.5, 0.5}, 0.4));
   const std::vector<Vec3d> places{{8.5, 0.5, 0.5}, {-8, 0, 0}};
   EXPECT_GT(speck(places[0]), 1);
   EXPECT_EQ(outside(speck, places), 0.5);
@@ -97,7 +97,7 @@ TEST(ShareOutside, CountsWhatTheLatticeDoesNotSee) {
 TEST(ShareOutside, CountsPiecesThatAreDropped) {
   for (const double sign : {-1.0, 1.0}) {
     const Vec3d large(-8 * sign, 0, 0), small(12 * sign, 0, 0);
-    const Density two = together(ball(large, 7.3), ball(small, 4.2));
+    const Density two = together(ball_around(large, 7.3), ball_around(small, 4.2));
     // In its middle, next to its surface on all sides, and in the large one.
     const std::vector<Vec3d> places{small,
                                     small + Vec3d(3.9, 0, 0),
@@ -113,7 +113,7 @@ TEST(ShareOutside, CountsPiecesThatAreDropped) {
 }
 
 TEST(ShareOutside, CountsAPieceThatIsDroppedFromAHollow) {
-  const Density nested = together(shell(14, {}, 9), ball({1, 0, 0}, 3.2));
+  const Density nested = together(shell_around(14, {}, 9), ball_around({1, 0, 0}, 3.2));
   const std::vector<Vec3d> places{{1, 0, 0}, {2, 1, 0}, {-12, 0, 0}, {12, 0, 0}};
   EXPECT_EQ(outside(nested, places), 0);
   EXPECT_EQ(outside(nested, places, 0.1), 0.5);

@@ -15,8 +15,6 @@
 namespace leafhull {
 namespace {
 
-constexpr Coord kLow{-16, -16, -16}, kHigh{16, 16, 16};
-
 /// Directed edges, each counted: closed and consistently oriented means once each way.
 bool closed(const std::vector<std::array<std::uint32_t, 3>>& triangles) {
   std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
@@ -28,15 +26,6 @@ bool closed(const std::vector<std::array<std::uint32_t, 3>>& triangles) {
     if (count != 1 || reverse == edges.end() || reverse->second != 1) return false;
   }
   return !edges.empty();
-}
-
-double volume(const Polygons& polygons) {
-  double sum = 0;
-  for (const auto& [a, b, c] : triangulate(polygons)) {
-    sum +=
-        dot(Vec3d(polygons.points[a]), cross(Vec3d(polygons.points[b]), Vec3d(polygons.points[c])));
-  }
-  return sum / 6;
 }
 
 Polygons surface_of(const Field& field, double adaptivity = 0) {

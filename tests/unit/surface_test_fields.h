@@ -11,6 +11,9 @@
 
 namespace leafhull {
 
+/// The corners of most fields.
+inline constexpr Coord kLow{-16, -16, -16}, kHigh{16, 16, 16};
+
 /// Evaluates one brick of a function of local coordinates.
 inline void add_brick(Field& field, const std::function<double(Vec3d)>& density, Coord origin) {
   std::vector<float> samples;
@@ -74,6 +77,15 @@ inline Field band_of(const std::function<double(Vec3d)>& density,
     }
   }
   return field;
+}
+
+inline double volume(const Polygons& polygons) {
+  double sum = 0;
+  for (const auto& [a, b, c] : triangulate(polygons)) {
+    sum +=
+        dot(Vec3d(polygons.points[a]), cross(Vec3d(polygons.points[b]), Vec3d(polygons.points[c])));
+  }
+  return sum / 6;
 }
 
 }  // namespace leafhull

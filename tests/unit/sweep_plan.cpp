@@ -9,14 +9,12 @@
 #include "sweep/plots.h"
 #include "sweep/sheets.h"
 #include "sweep/tables.h"
+#include "unit/option_row.h"
 
 namespace leafhull {
 namespace {
 
-const OptionRow& row(std::string_view name) {
-  const auto rows = option_table();
-  return *std::find_if(rows.begin(), rows.end(), [&](const auto& r) { return r.name == name; });
-}
+using test::option_row;
 
 LeafSet leaf() {
   LeafSet leaves;
@@ -33,7 +31,8 @@ const DeviceInfo kDevice = [] {
 
 /// Thresholds by methods; what is extracted is the threshold alone.
 SweepPlan plan(const std::string& thresholds, const std::string& methods) {
-  SweepPlan plan{{swept_option(row("method"), methods), swept_option(row("threshold"), thresholds)},
+  SweepPlan plan{{swept_option(option_row("method"), methods),
+                  swept_option(option_row("threshold"), thresholds)},
                  {}};
   const std::size_t count = combination_count(plan.swept);
   for (std::size_t i = 0; i < count; ++i) {
@@ -133,7 +132,7 @@ TEST(SweepPlan, PlotsHaveALineForEachOtherCombination) {
 
 TEST(SweepPlan, PlotsSayHowManyLinesTheyLeaveOut) {
   SweepPlan sweep = plan("1,2", "isotropic,controlled");
-  sweep.swept[0] = swept_option(row("radius-max"), "1:40:1");
+  sweep.swept[0] = swept_option(option_row("radius-max"), "1:40:1");
   sweep.combinations.assign(80, sweep.combinations[0]);
   const Chart chart = plots(sweep, rows_of(sweep), "tree.glb").at(1).chart;
   const auto& lines = chart.panels[0].lines;
@@ -145,7 +144,7 @@ TEST(SweepPlan, PlotsSayHowManyLinesTheyLeaveOut) {
 
 TEST(SweepPlan, PlotsLeaveOutNumbersBeforeNames) {
   SweepPlan sweep = plan("1:7:1", "isotropic,uncontrolled,controlled");
-  sweep.swept.push_back(swept_option(row("flatness"), "0.5,1"));
+  sweep.swept.push_back(swept_option(option_row("flatness"), "0.5,1"));
   sweep.combinations.assign(42, sweep.combinations[0]);
   const Chart chart = plots(sweep, rows_of(sweep), "tree.glb").at(1).chart;
   std::vector<std::string> names;

@@ -5,19 +5,17 @@
 
 #include "leafhull/error.h"
 #include "leafhull/sweep.h"
+#include "unit/option_row.h"
 
 namespace leafhull {
 namespace {
 
+using test::option_row;
+
 using Texts = std::vector<std::string>;
 
-const OptionRow& row(std::string_view name) {
-  const auto rows = option_table();
-  return *std::find_if(rows.begin(), rows.end(), [&](const auto& r) { return r.name == name; });
-}
-
 Texts values(std::string_view text, std::string_view option = "threshold") {
-  return swept_option(row(option), text).values;
+  return swept_option(option_row(option), text).values;
 }
 
 std::string refusal(std::string_view text, std::string_view option = "threshold") {
@@ -59,21 +57,21 @@ TEST(SweepValues, ListsKeepTheirOrder) {
 }
 
 TEST(SweepValues, PercentagesAreThresholdPercent) {
-  const SweptOption range = swept_option(row("threshold"), "30%:60%:10%");
+  const SweptOption range = swept_option(option_row("threshold"), "30%:60%:10%");
   EXPECT_EQ(range.row->name, "threshold-percent");
   EXPECT_EQ(range.values, (Texts{"30", "40", "50", "60"}));
-  EXPECT_EQ(swept_option(row("threshold"), "30%,45%").row->name, "threshold-percent");
-  EXPECT_EQ(swept_option(row("threshold"), "30,45").row->name, "threshold");
+  EXPECT_EQ(swept_option(option_row("threshold"), "30%,45%").row->name, "threshold-percent");
+  EXPECT_EQ(swept_option(option_row("threshold"), "30,45").row->name, "threshold");
   EXPECT_NE(refusal("30%,45").find("mixes"), std::string::npos);
   EXPECT_NE(refusal("30:60:10%").find("mixes"), std::string::npos);
   EXPECT_NE(refusal("1%,2%", "radius-max").find("numbers"), std::string::npos);
 }
 
 TEST(SweepValues, PercentagesOfTheBandAndOfFractions) {
-  const SweptOption band = swept_option(row("band-low"), "10%:30%:10%");
+  const SweptOption band = swept_option(option_row("band-low"), "10%:30%:10%");
   EXPECT_EQ(band.row->name, "band-low-percent");
   EXPECT_EQ(band.values, (Texts{"10", "20", "30"}));
-  const SweptOption coverage = swept_option(row("coverage"), "85%,92.5%");
+  const SweptOption coverage = swept_option(option_row("coverage"), "85%,92.5%");
   EXPECT_EQ(coverage.row->name, "coverage");
   EXPECT_EQ(coverage.values, (Texts{"0.85", "0.925"}));
   EXPECT_EQ(values("5%:25%:10%", "coverage"), (Texts{"0.05", "0.15", "0.25"}));
@@ -107,10 +105,11 @@ TEST(SweepValues, AValueTwiceIsRefused) {
 }
 
 TEST(SweepValues, CombinationsMultiply) {
-  const std::vector<SweptOption> swept = {swept_option(row("threshold"), "1:5:1"),
-                                          swept_option(row("method"), "isotropic,controlled")};
+  const std::vector<SweptOption> swept = {
+      swept_option(option_row("threshold"), "1:5:1"),
+      swept_option(option_row("method"), "isotropic,controlled")};
   EXPECT_EQ(combination_count(swept), 10u);
-  const SweptOption many = swept_option(row("threshold"), "1:1000:1");
+  const SweptOption many = swept_option(option_row("threshold"), "1:1000:1");
   EXPECT_THROW(combination_count(std::vector<SweptOption>(5, many)), Error);
 }
 

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// Trees of a forest, and its canopy tile by tile.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "forest/compute_tile.h"
+#include "forest/plan.h"
+#include "property/area_measures.h"
+#include "property/extractions.h"
+
+namespace leafhull::test {
+
+inline PlacedTree placed(std::uint32_t model, Vec3d position, double yaw, double scale) {
+  const auto c = static_cast<float>(scale * std::cos(yaw)),
+             s = static_cast<float>(scale * std::sin(yaw));
+  return {position, {c, 0, s, 0, static_cast<float>(scale), 0, -s, 0, c}, model};
+}
+
+inline std::vector<Corners> canopy(const Scene& scene, const ForestLevel& level, int edge) {
+  std::vector<Corners> all;
+  const TilePlan plan(scene, level, edge);
+  for (std::size_t t = 0; t < plan.size(); ++t) {
+    const TileTask task{plan.tiles()[t], edge, plan.trees(t)};
+    const std::vector<Corners> part = corners_of(compute_tile(scene, level, task, device()).mesh);
+    all.insert(all.end(), part.begin(), part.end());
+  }
+  return all;
+}
+
+}  // namespace leafhull::test
