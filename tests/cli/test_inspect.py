@@ -10,14 +10,14 @@ class Inspect(CommandTest):
     def test_table(self):
         page = self.succeed("inspect", ASH).stdout
         heads = page.splitlines()[0].split()
-        expected = "material mesh node alpha instances vertices triangles leaf".split()
-        self.assertEqual(heads, expected)
+        expected = "leaves material mesh colour alpha triangles name holes colour shape place sum"
+        self.assertEqual(heads, expected.split())
         for fact in ("leaf vertices", "mean R_u", "mean R_u / R_v", "bounding box", "crown unit"):
             self.assertRegex(page, rf"(?m)^{fact}  ")
 
     def test_json(self):
         page = json.loads(self.succeed("inspect", self.tree, "--json").stdout)
-        (primitive,) = page["primitives"]
+        (primitive,) = page["candidates"]
         self.assertEqual(primitive["material"], "leaf")
         self.assertEqual(primitive["mesh"], "Crown")
         self.assertEqual(primitive["node"], "Tree")
@@ -25,6 +25,11 @@ class Inspect(CommandTest):
         self.assertEqual(primitive["vertices"], 1200)
         self.assertEqual(primitive["triangles"], 600)
         self.assertTrue(primitive["leaves"])
+        self.assertEqual(primitive["verdict"], "leaves")
+        self.assertEqual(primitive["word"], "leaf")
+        evidence = primitive["evidence"]
+        self.assertAlmostEqual(sum(evidence.values()), 2 * evidence["sum"])
+        self.assertTrue(page["chosen"].startswith("leaves: leaf (name, shape"), page["chosen"])
         positions, _ = glb.cards()
         sides = [
             max(p[axis] for p in positions) - min(p[axis] for p in positions) for axis in range(3)
@@ -70,7 +75,7 @@ class Inspect(CommandTest):
     def test_no_leaves_prints_the_list_and_what_to_try(self):
         data = glb.tree(*glb.cards(), material="Rinde [1]", alpha="OPAQUE")
         bark = self.input("it's bark.glb", data)
-        result = self.fail_with(3, ["Rinde [1]"], "inspect", bark)
+        result = self.fail_with(3, ["Rinde [1]", "--leaves 'Rinde ?1?'"], "inspect", bark)
         self.assertIn("Rinde [1]", result.stdout)
         (line,) = [line for line in result.stdout.splitlines() if "--leaves" in line]
         self.assertIn("leaves            300", self.succeed(*shlex.split(line)[1:]).stdout)
@@ -79,12 +84,13 @@ class Inspect(CommandTest):
         bark = self.input("bark.glb", glb.tree(*glb.cards(), material="Bark", alpha="OPAQUE"))
         page = json.loads(self.fail_with(3, ["Bark"], "inspect", bark, "--json").stdout)
         self.assertIsNone(page["leaves"])
-        self.assertFalse(page["primitives"][0]["leaves"])
+        self.assertFalse(page["candidates"][0]["leaves"])
+        self.assertLess(page["candidates"][0]["evidence"]["name"], 0)
 
     def test_leaves_flag_counts(self):
         bark = self.input("bark.glb", glb.tree(*glb.cards(), material="Bark", alpha="OPAQUE"))
         page = json.loads(self.succeed("inspect", bark, "--leaves", "b?RK", "--json").stdout)
-        self.assertTrue(page["primitives"][0]["leaves"])
+        self.assertTrue(page["candidates"][0]["leaves"])
         self.assertEqual(page["leaves"]["leaves"], 300)
 
     def test_control_characters_of_names(self):
