@@ -20,9 +20,12 @@ struct TextureEllipse {
   Vec2d centre, a, b;
 };
 
+/// Red, green and blue, 8 bits each of sRGB.
+using Srgb = std::array<std::uint8_t, 3>;
+
 /// Of which colour leaves are, where names cannot tell.
 struct LeafColour {
-  std::array<std::uint8_t, 3> srgb{};
+  Srgb srgb{};
   /// The largest distance in Oklab that is still this colour; 0: of two classes the nearer one.
   double tolerance = 0;
 };
@@ -31,6 +34,7 @@ struct LeafOptions {
   std::vector<std::string> globs;         ///< empty: evidence decides
   std::vector<std::string> not_globs;     ///< what is not leaves, whatever else says so
   std::optional<LeafColour> colour;       ///< of those, the triangles of this colour alone
+  std::optional<Srgb> tint;               ///< what they are drawn in; empty: their own colour
   std::optional<TextureEllipse> ellipse;  ///< empty: the alpha texture, else the triangles
   double scale = 1;                       ///< multiplies R_u and R_v; > 0
 };
@@ -70,6 +74,7 @@ struct LeafSet {
   std::size_t split_components = 0;  ///< components that were not one flat leaf
   double mean_radius_major = 0;      ///< mean R_u over the leaves, model units
   double area = 0;                   ///< that is visible, one side of it, model units squared
+  std::optional<Vec3f> colour;       ///< linear, mean; none: unknown
   std::shared_ptr<const LeafSheets> sheets;  ///< what `area` is of
   Box bounds;                                ///< of the vertices
   /// Of the vertices but for strays, the few leaves that lie far from the rest: what lengths in
@@ -114,6 +119,9 @@ struct LeafChoice {
   std::vector<bool> cut_out;   ///< by material: the alpha of its image counts though it is opaque
   std::vector<bool> left_out;  ///< by instance: a coarser level of what is there already
   std::vector<LeafCandidate> candidates;  ///< the likeliest first
+  /// Of the leaves, linear: mean by area of texture times factor times vertex colour where it is
+  /// visible; none where nothing tells it.
+  std::optional<Vec3f> colour;
   std::string told;                  ///< what was taken and what passed over, and why; one line
   std::vector<std::string> options;  ///< those that would take the likeliest candidates
   std::vector<std::string> warnings;

@@ -32,6 +32,7 @@ struct Options {
   // Leaves
   std::vector<std::string> leaves, not_leaves;
   std::optional<LeafColour> leaves_colour;
+  std::optional<Srgb> leaf_colour;  ///< what leaves are drawn in
   std::optional<TextureEllipse> ellipse;
   double leaf_scale = 1;
 
@@ -66,7 +67,7 @@ struct Options {
   double adaptivity = 0;  ///< of Mesher::vdb alone
 
   LeafOptions leaf_options() const {
-    return {leaves, not_leaves, leaves_colour, ellipse, leaf_scale};
+    return {leaves, not_leaves, leaves_colour, leaf_colour, ellipse, leaf_scale};
   }
 };
 
@@ -109,7 +110,8 @@ struct OptionRow {
                    std::optional<PointSource> Options::*, Spread Options::*,
                    DensitySource Options::*, std::optional<Hollows> Options::*, Mesher Options::*,
                    std::optional<Preset> Options::*, std::vector<std::string> Options::*,
-                   std::optional<TextureEllipse> Options::*, std::optional<LeafColour> Options::*>;
+                   std::optional<TextureEllipse> Options::*, std::optional<LeafColour> Options::*,
+                   std::optional<Srgb> Options::*>;
 
   /// As in the flag --name and, with underscores, in the report. What is on by default has the
   /// flag --no-name.

@@ -33,6 +33,7 @@ struct Mesh {
   std::vector<Vec3f> positions;
   std::vector<Vec3f> normals;  ///< -grad N / |grad N|
   std::vector<std::array<std::uint32_t, 3>> triangles;
+  std::optional<Vec3f> colour;  ///< of its material, linear; none: leafhull's green
 };
 
 /// The sampled density; only leafhull's own stages look inside.
@@ -76,8 +77,9 @@ struct Report {
   std::string device;
   Counts counts;
   DensityStatistics density;
-  double leaf_area = 0;  ///< that is visible, model units squared
-  double covered = 0;    ///< the share of the places on the leaves that lies inside, summed there
+  double leaf_area = 0;              ///< that is visible, model units squared
+  std::optional<Vec3f> leaf_colour;  ///< linear, mean; none: unknown
+  double covered = 0;  ///< the share of the places on the leaves that lies inside, summed there
   Metrics metrics;
   std::vector<StageTime> seconds;       ///< in order, the total last
   std::uint64_t peak_memory_bytes = 0;  ///< of the process; the caller's to set

@@ -49,7 +49,7 @@ using Transform = std::array<std::array<double, 4>, 3>;
 inline constexpr Transform kIdentity{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
 
 /// A named place in the file's hierarchy: a node of glTF, an object or group of OBJ.
-struct Node {
+struct TreeNode {
   std::string name;
   int parent = -1;  ///< into TreeModel::nodes, -1: none
   int level = 0;    ///< of detail, as MSFT_lod tells it: 0 the finest, or not told
@@ -69,7 +69,7 @@ struct TreeModel {
   std::vector<Image> images;
   std::vector<Material> materials;
   std::vector<Primitive> primitives;
-  std::vector<Node> nodes;
+  std::vector<TreeNode> nodes;
   std::vector<Instance> instances;
   std::vector<std::string> warnings;  ///< what was passed over, one line each
 };

@@ -21,6 +21,7 @@ std::string_view metavar_of(double) { return "X"; }
 std::string_view metavar_of(const std::vector<std::string>&) { return "GLOB"; }
 std::string_view metavar_of(const TextureEllipse&) { return "cu,cv,au,av,bu,bv"; }
 std::string_view metavar_of(const LeafColour&) { return "COLOUR"; }
+std::string_view metavar_of(const Srgb&) { return "COLOUR"; }
 
 template <class Enum>
 requires std::is_enum_v<Enum> std::string_view metavar_of(Enum) { return "NAME"; }

@@ -80,19 +80,22 @@ void assign(TextureEllipse& value, std::string_view flag, const std::string& tex
   value = {{n[0], n[1]}, {n[2], n[3]}, {n[4], n[5]}};
 }
 
-void assign(LeafColour& value, std::string_view flag, const std::string& text) {
+void assign(Srgb& value, std::string_view flag, const std::string& text) {
   constexpr std::string_view kDigits = "0123456789abcdefABCDEF";
-  const std::string hex = text.substr(0, text.find(','));
-  if (hex.size() != 7 || hex[0] != '#' || hex.find_first_not_of(kDigits, 1) != hex.npos) {
-    refuse(flag, text, "is not a colour",
-           "Give it as '#rrggbb', or with a tolerance '#rrggbb,0.1'.");
+  if (text.size() != 7 || text[0] != '#' || text.find_first_not_of(kDigits, 1) != text.npos) {
+    refuse(flag, text, "is not a colour", "Give it as '#rrggbb'.");
   }
-  const auto channel = [&](std::size_t at) {
-    return static_cast<std::uint8_t>(std::stoul(hex.substr(at, 2), nullptr, 16));
-  };
-  value.srgb = {channel(1), channel(3), channel(5)};
-  if (hex.size() == text.size()) return;
-  value.tolerance = real_number(flag, std::string_view(text).substr(hex.size() + 1));
+  for (std::size_t i = 0; i < value.size(); ++i) {
+    const std::string digits = text.substr(1 + 2 * i, 2);
+    value[i] = static_cast<std::uint8_t>(std::stoul(digits, nullptr, 16));
+  }
+}
+
+void assign(LeafColour& value, std::string_view flag, const std::string& text) {
+  const std::size_t comma = text.find(',');
+  assign(value.srgb, flag, text.substr(0, comma));
+  if (comma == text.npos) return;
+  value.tolerance = real_number(flag, std::string_view(text).substr(comma + 1));
   if (!(value.tolerance > 0)) {
     refuse(flag, text, "has a tolerance that is not positive", "Distances in Oklab are 0.02 to 1.");
   }

@@ -70,4 +70,32 @@ Vec3d oklab_of(Vec3f linear) {
           0.0259040371 * l + 0.7827717662 * m - 0.8086757660 * s};
 }
 
+Vec3f linear_of_oklab(Vec3d lab) {
+  const auto cubed = [](double x) { return x * x * x; };
+  const double l = cubed(lab.x + 0.3963377774 * lab.y + 0.2158037573 * lab.z);
+  const double m = cubed(lab.x - 0.1055613458 * lab.y - 0.0638541728 * lab.z);
+  const double s = cubed(lab.x - 0.0894841775 * lab.y - 1.2914855480 * lab.z);
+  return Vec3f(Vec3d(4.0767416621 * l - 3.3077115913 * m + 0.2309699292 * s,
+                     -1.2684380046 * l + 2.6097574011 * m - 0.3413193965 * s,
+                     -0.0041960863 * l - 0.7034186147 * m + 1.7076147010 * s));
+}
+
+Vec3f shown_oklab(Vec3d lab) {
+  lab.x = std::clamp(lab.x, 0.0, 1.0);
+  const auto with_chroma = [&](double share) {
+    return linear_of_oklab({lab.x, share * lab.y, share * lab.z});
+  };
+  const auto is_shown = [](Vec3f c) {
+    return std::min({c.x, c.y, c.z}) >= 0 && std::max({c.x, c.y, c.z}) <= 1;
+  };
+  double shown = 0, most = 1;  // a grey always is
+  if (is_shown(with_chroma(1))) shown = 1;
+  for (int step = 0; step < 20 && shown < 1; ++step) {
+    const double middle = (shown + most) / 2;
+    (is_shown(with_chroma(middle)) ? shown : most) = middle;
+  }
+  const auto [r, g, b] = with_chroma(shown);
+  return {std::clamp(r, 0.0f, 1.0f), std::clamp(g, 0.0f, 1.0f), std::clamp(b, 0.0f, 1.0f)};
+}
+
 }  // namespace leafhull

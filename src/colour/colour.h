@@ -35,5 +35,12 @@ Hsv hsv_of(Vec3f linear);
 /// Lightness, from 0 to 1, and two axes of hue; colours that look alike lie close, a distance of
 /// 0.02 is just seen. Source: Ottosson, "A perceptual color space for image processing", 2020.
 Vec3d oklab_of(Vec3f linear);
+/// The way back; channels may lie outside of 0..1.
+Vec3f linear_of_oklab(Vec3d lab);
+/// The same within 0..1: with less chroma where it has to be.
+Vec3f shown_oklab(Vec3d lab);
+
+/// What foliage has whose colour nobody tells; linear.
+inline constexpr Vec3f kLeafGreen{0.13f, 0.3f, 0.07f};
 
 }  // namespace leafhull

@@ -16,7 +16,7 @@
 namespace leafhull {
 namespace {
 
-constexpr std::size_t kSamples = 400'000;
+constexpr std::size_t kLooks = 400'000;
 
 bool fits(const std::string& glob, const std::string& name) {
   return fnmatch(glob.c_str(), name.c_str(), FNM_CASEFOLD | FNM_NOESCAPE) == 0;
@@ -157,7 +157,7 @@ void Asked::choose_by_colour(const Candidates& candidates, LeafChoice& choice) c
       continue;
     }
     const Primitive& primitive = tree_.primitives[candidate.primitive];
-    const SurfaceColour colour(tree_, primitive, kSamples);
+    const SurfaceColour colour(tree_, primitive, kLooks);
     std::vector<double>& of = distances[candidate.primitive];
     for (std::size_t t = 0; t < primitive.triangles.size(); ++t) {
       of.push_back(length(oklab_of(colour.of(t).colour) - wanted));

@@ -16,7 +16,7 @@ namespace {
 // What a word is worth, by where it stands.
 constexpr double kMaterialName = 4, kImageName = 2, kPlaceName = 2.5, kParentName = 2;
 /// A material whose name says this much is not looked at for other things in it.
-constexpr double kPlain = 0.7;
+constexpr double kSaysWhatItIs = 0.7;
 
 /// Signs of names, each read once.
 class NameReader {
@@ -148,11 +148,11 @@ class CandidateFinder {
   void look_at_all(std::uint32_t primitive, const std::vector<std::size_t>& groups) {
     const Primitive& source = tree_.primitives[primitive];
     const bool is_plain = std::ranges::all_of(groups, [&](std::size_t g) {
-      return std::abs(groups_[g].signs.material.weight) >= kPlain;
+      return std::abs(groups_[g].signs.material.weight) >= kSaysWhatItIs;
     });
     const Instance& first = instances_[groups_[groups.front()].instances.front()];
-    Looks looks = look_at(tree_, primitive, first.to_world, all_,
-                          is_plain ? Cutting::none : Cutting::where_it_differs);
+    Appearances looks = look_at(tree_, primitive, first.to_world, all_,
+                                is_plain ? Cutting::none : Cutting::where_it_differs);
     std::vector<std::size_t> triangles(looks.parts.size());
     for (const std::uint8_t part : looks.part_of) ++triangles[part];
     if (looks.part_of.empty()) triangles.front() = source.triangles.size();
@@ -172,7 +172,7 @@ class CandidateFinder {
     found_.part_of[primitive] = std::move(looks.part_of);
   }
 
-  Candidate describe(const Group& group, const Primitive& primitive, const Look& look,
+  Candidate describe(const Group& group, const Primitive& primitive, const Appearance& look,
                      const Transform& first) const {
     Candidate candidate;
     LeafCandidate& told = candidate.told;
@@ -187,11 +187,13 @@ class CandidateFinder {
     told.vertices = primitive.positions.size();
     told.area = look.area * static_cast<double>(told.instances);
     candidate.instances = group.instances;
+    candidate.visible = told.area * (1 - look.cut);
 
     const bool unread = material && material->base_color_image >= 0 &&
                         tree_.images[material->base_color_image].empty();
     told.evidence.alpha = alpha_evidence(look, told.alpha_mode, unread);
     if (look.has_colour && !unread) {
+      candidate.colour = look.colour;
       told.colour = hex_of(look.colour);
       told.evidence.colour = colour_evidence(look.colour);
     }

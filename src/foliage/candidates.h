@@ -2,11 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
+#include "foliage/appearance.h"
 #include "foliage/levels.h"
-#include "foliage/look.h"
 #include "foliage/names.h"
 #include "leafhull/leaves.h"
 
@@ -16,6 +17,8 @@ namespace leafhull {
 struct Candidate {
   LeafCandidate told;
   Growth growth = Growth::unknown;  ///< what its names say it is
+  std::optional<Vec3f> colour;      ///< linear, mean of what is visible
+  double visible = 0;               ///< area that is not cut away, model units squared
   double height = 0;                ///< of its middle, in the box of everything
   std::uint32_t primitive = 0;
   std::uint8_t part = 0;

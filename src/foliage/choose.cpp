@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "colour/colour.h"
 #include "foliage/asked.h"
 #include "foliage/candidates.h"
 #include "foliage/levels.h"
@@ -157,6 +158,18 @@ void use_alpha(const TreeModel& tree, const Candidates& candidates, LeafChoice& 
   }
 }
 
+std::optional<Vec3f> mean_colour(const std::vector<Candidate>& list) {
+  Vec3d sum;
+  double area = 0;
+  for (const Candidate& candidate : list) {
+    if (!is_chosen(candidate) || !candidate.colour) continue;
+    sum = sum + Vec3d(*candidate.colour) * candidate.visible;
+    area += candidate.visible;
+  }
+  if (!(area > 0)) return std::nullopt;
+  return Vec3f(sum / area);
+}
+
 }  // namespace
 
 bool LeafChoice::any() const { return std::ranges::find(instances, true) != instances.end(); }
@@ -182,6 +195,7 @@ LeafChoice choose_leaves(const TreeModel& tree, std::span<const Instance> instan
     asked.choose(levels, candidates, choice);
   }
   use_alpha(tree, candidates, choice);
+  choice.colour = options.tint ? linear_of_srgb(*options.tint) : mean_colour(candidates.list);
   choice.told = told_words(candidates.list, levels);
   if (options.globs.empty() && !options.colour) warn_of_doubt(candidates.list, is_guess, choice);
   asked.warn_of_unused(choice.warnings);

@@ -67,13 +67,13 @@ double colour_evidence(Vec3f linear) {
   return (1 - coloured) * grey + coloured * (is_rosy ? std::max(full, 1.2) : full);
 }
 
-double alpha_evidence(const Look& look, AlphaMode mode, bool image_unread) {
+double alpha_evidence(const Appearance& look, AlphaMode mode, bool image_unread) {
   if (mode == AlphaMode::opaque) return look.cut > 0.05 && look.cut < 0.97 ? 1.5 : 0;
   if (image_unread) return 1.5;
   return look.cut > 0.02 ? 3 * share(look.cut, 0, 0.12) : 0;
 }
 
-double shape_evidence(const Look& look, std::size_t instances) {
+double shape_evidence(const Appearance& look, std::size_t instances) {
   const auto count = static_cast<double>(look.pieces * instances);
   const double many = share(std::log10(std::max(count, 1.0)), 0.7, 2);  // from 5 to 100
   const double small = 1 - share(look.piece_length, 0.3, 0.7);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "foliage/look.h"
+#include "foliage/appearance.h"
 #include "leafhull/leaves.h"
 
 namespace leafhull {
@@ -13,10 +13,10 @@ namespace leafhull {
 double colour_evidence(Vec3f linear);
 
 /// Holes in the texture, where the triangles use it.
-double alpha_evidence(const Look& look, AlphaMode mode, bool image_unread);
+double alpha_evidence(const Appearance& look, AlphaMode mode, bool image_unread);
 
 /// Many small flat pieces, or lobes, against tubes and what lies level at the foot.
-double shape_evidence(const Look& look, std::size_t instances);
+double shape_evidence(const Appearance& look, std::size_t instances);
 
 /// Above, where crowns are, against below. @param height of its middle, 0 at the foot of
 /// everything in the file and 1 at the top.

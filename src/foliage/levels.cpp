@@ -95,7 +95,7 @@ class PlaceFinder {
       if (path.size() > known_.size()) break;  // a cycle, which has no place in a scene
     }
     for (auto at = path.rbegin(); at != path.rend(); ++at) {
-      const Node& here = tree_.nodes[*at];
+      const TreeNode& here = tree_.nodes[*at];
       if (const auto own = told(here.name, here.parent, here.level)) place = own;
       known_[*at] = {true, place};
     }

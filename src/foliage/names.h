@@ -17,9 +17,9 @@ struct NameSign {
   std::string word;                 ///< as the name has it, in lower case and without accents
 };
 
-/// Looks for words for leaves, wood, ground and the like in some twenty languages; the last one in
-/// the name decides, as in BranchLeaves and LeafStem. Words are known with and without accents, in
-/// CamelCase and in compounds such as Laubblatt.
+/// Looks for words for leaves, wood, ground and the like in some twenty languages; the last
+/// one in the name decides, as in BranchLeaves and LeafStem. Words are known with and without
+/// accents, in CamelCase and in compounds such as Laubblatt.
 NameSign read_name(std::string_view name);
 
 /// In lower case, accents taken off, words in CamelCase and digits set apart by blanks; what is not

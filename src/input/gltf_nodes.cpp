@@ -153,9 +153,9 @@ bool is_finite(const Transform& transform) {
   return true;
 }
 
-std::vector<Node> node_table(const GltfFile& file) {
+std::vector<TreeNode> node_table(const GltfFile& file) {
   const std::vector<tinygltf::Node>& nodes = file.model.nodes;
-  std::vector<Node> table(nodes.size());
+  std::vector<TreeNode> table(nodes.size());
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     table[i].name = nodes[i].name;
     for (const int child : nodes[i].children) {

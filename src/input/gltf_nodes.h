@@ -30,7 +30,7 @@ std::set<int> placed_meshes(const GltfFile& file);
 void place_meshes(GltfFile& file, const std::function<void(const PlacedMesh&)>& place);
 
 /// All nodes of the file by their numbers.
-std::vector<Node> node_table(const GltfFile& file);
+std::vector<TreeNode> node_table(const GltfFile& file);
 
 /// The cameras of the same nodes in the same order.
 /// @throws Error input: nodes that are not a tree, or a camera's transform that is not finite.

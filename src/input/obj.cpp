@@ -74,7 +74,7 @@ class Collector {
   }
 
   std::vector<Part> parts;
-  std::vector<Node> nodes;  ///< objects, and groups in them
+  std::vector<TreeNode> nodes;  ///< objects, and groups in them
 
  private:
   /// The number of the node of that name in `parent`, which a nameless one stands for.

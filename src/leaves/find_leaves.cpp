@@ -228,6 +228,7 @@ LeafSet find_leaves(const TreeModel& tree, std::span<const Instance> instances,
   check(options);
   LeafSet leaves;
   leaves.choice = std::make_shared<const LeafChoice>(choice);
+  leaves.colour = choice.colour;
   leaves.warnings = choice.warnings;
   std::vector<std::uint32_t> selected(instances.size());
   std::iota(selected.begin(), selected.end(), 0u);

@@ -53,10 +53,11 @@ Json document(const MeshHead& mesh) {
                        {"indices", 2},
                        {"material", 0},
                        {"mode", 4}};
-  const Json material{
-      {"name", kLeafMaterial},
-      {"pbrMetallicRoughness",
-       {{"baseColorFactor", kLeafColour}, {"metallicFactor", 0.0}, {"roughnessFactor", 1.0}}}};
+  const Json material{{"name", kLeafMaterial},
+                      {"pbrMetallicRoughness",
+                       {{"baseColorFactor", leaf_base_color(std::nullopt)},
+                        {"metallicFactor", 0.0},
+                        {"roughnessFactor", 1.0}}}};
   const Json vertex_view{{"buffer", 0},
                          {"byteLength", mesh.vertices * kVertexBytes},
                          {"byteStride", kVertexBytes},

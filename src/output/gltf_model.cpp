@@ -47,13 +47,22 @@ int add_indices(tinygltf::Model& model, const Mesh& mesh) {
                       TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT, TINYGLTF_TYPE_SCALAR);
 }
 
-tinygltf::Material leaf_material() {
-  tinygltf::Material material;
+/// The file's material of that colour, appended if it is the first.
+int material_of(tinygltf::Model& model, const std::optional<Vec3f>& colour) {
+  const std::array<double, 4> color = leaf_base_color(colour);
+  const std::vector<double> factor(color.begin(), color.end());
+  const auto known = std::ranges::find_if(model.materials, [&](const tinygltf::Material& m) {
+    return m.pbrMetallicRoughness.baseColorFactor == factor;
+  });
+  if (known != model.materials.end()) {
+    return static_cast<int>(known - model.materials.begin());
+  }
+  tinygltf::Material& material = model.materials.emplace_back();
   material.name = kLeafMaterial;
-  material.pbrMetallicRoughness.baseColorFactor = {kLeafColour.begin(), kLeafColour.end()};
+  material.pbrMetallicRoughness.baseColorFactor = factor;
   material.pbrMetallicRoughness.metallicFactor = 0;
   material.pbrMetallicRoughness.roughnessFactor = 1;
-  return material;
+  return static_cast<int>(model.materials.size()) - 1;
 }
 
 }  // namespace
@@ -63,7 +72,6 @@ tinygltf::Model new_gltf_model() {
   model.asset.version = "2.0";
   model.asset.generator = std::string("leafhull ") + kVersion;
   model.buffers.emplace_back();
-  model.materials.push_back(leaf_material());
   model.scenes.emplace_back();
   model.defaultScene = 0;
   return model;
@@ -72,7 +80,7 @@ tinygltf::Model new_gltf_model() {
 int add_mesh(tinygltf::Model& model, const Mesh& mesh, Normals normals) {
   tinygltf::Primitive primitive;
   primitive.mode = TINYGLTF_MODE_TRIANGLES;
-  primitive.material = 0;
+  primitive.material = material_of(model, mesh.colour);
   primitive.attributes["POSITION"] = add_positions(model, mesh);
   primitive.attributes["NORMAL"] = add_normals(model, mesh, normals);
   primitive.indices = add_indices(model, mesh);

@@ -13,7 +13,7 @@
 
 namespace leafhull {
 
-/// A file with one buffer, one scene and one single-sided leaf-green material, and nothing in them.
+/// A file with one buffer, and one scene, and nothing in them.
 tinygltf::Model new_gltf_model();
 
 /// Appends `elements` to the file's only buffer, as a buffer view and an accessor over all of it.

@@ -2,13 +2,24 @@
 #pragma once
 
 #include <array>
+#include <cmath>
+#include <optional>
 #include <string_view>
+
+#include "colour/colour.h"
 
 namespace leafhull {
 
-// The single-sided material of shapes in glTF.
+/// What the single-sided material of shapes in glTF is called.
 inline constexpr std::string_view kLeafMaterial = "leaves";
-inline constexpr std::array<double, 4> kLeafColour{0.13, 0.3, 0.07, 1};
+
+/// Its base colour: that of the leaves, or green where nobody tells it.
+inline std::array<double, 4> leaf_base_color(const std::optional<Vec3f>& colour) {
+  const auto decimal = [](float x) { return std::round(1e4 * static_cast<double>(x)) / 1e4; };
+  const auto [r, g, b] = colour.value_or(kLeafGreen);
+  return {decimal(r), decimal(g), decimal(b), 1};
+}
+
 /// What meshes are called, by which is_shape() knows them.
 inline constexpr std::string_view kShapeName = "abstract shape";
 

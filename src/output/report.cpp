@@ -31,6 +31,8 @@ Json to_json_value(const TextureEllipse& ellipse) {
   return {ellipse.centre.x, ellipse.centre.y, ellipse.a.x, ellipse.a.y, ellipse.b.x, ellipse.b.y};
 }
 
+Json to_json_value(const Srgb& colour) { return hex_of(colour); }
+
 Json to_json_value(const LeafColour& colour) {
   const std::string text = hex_of(colour.srgb);
   return colour.tolerance > 0 ? Json{text, colour.tolerance} : Json(text);
@@ -68,6 +70,7 @@ Json counts(const Report& report) {
           {"leaf_vertices", counts.leaf_vertices},
           {"leaf_points", counts.leaf_points},
           {"leaf_area", report.leaf_area},
+          {"leaf_colour", report.leaf_colour ? Json(hex_of(*report.leaf_colour)) : Json()},
           {"dropped_leaves", counts.dropped_leaves},
           {"split_components", counts.split_components},
           {"evaluated_voxels", counts.evaluated_voxels},

@@ -14,6 +14,7 @@
 #include "render/exr.h"
 #include "render/shade.h"
 #include "watercolour/style.h"
+#include "watercolour/tint.h"
 
 namespace leafhull {
 namespace {
@@ -99,7 +100,9 @@ Picture Artist::shade(const Subject::Parts& parts, const render::Buffers& buffer
           options.style ? options.style
                         : read_watercolour_style(std::string(watercolour_styles().front()));
       const auto strokes = strokes_of(parts, camera, options.width, options.height);
-      return painter_->paint(buffers, strokes, *style);
+      return painter_->paint(
+          buffers, strokes,
+          parts.leaf_colour ? watercolour::tinted(*style, *parts.leaf_colour) : *style);
     }
     case Look::phong:
       break;

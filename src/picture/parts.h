@@ -27,7 +27,8 @@ struct Subject::Parts {
   render::Placement placement;
   std::vector<Vec3f> points;  ///< what named viewpoints hold, each with `reach` around it
   float reach = 0;
-  std::vector<LeafCard> leaves;  ///< by their number
+  std::vector<LeafCard> leaves;      ///< by their number
+  std::optional<Vec3f> leaf_colour;  ///< linear, mean; none: unknown
 
   std::shared_ptr<const TreeModel> model;  ///< of wood, or of a shape
   Mesh mesh;                               ///< of the foliage, where it is drawn so

@@ -104,6 +104,7 @@ Subject tree_subject(std::shared_ptr<const TreeModel> tree, const LeafSet& leave
   const auto parts = std::make_shared<Parts>();
   const Rest wood = rest_of(std::move(tree), *leaves.choice);
   parts->model = wood.model;
+  parts->leaf_colour = leaves.colour;
   std::shared_ptr<const DirectSurface> direct;
   if (surfacing == Surfacing::direct) {
     direct = std::make_shared<const DirectSurface>(leaves, options, device, progress);
@@ -132,7 +133,8 @@ Subject tree_subject(std::shared_ptr<const TreeModel> tree, const LeafSet& leave
                                             render::Look::wood, parts->placement));
   }
   if (direct) {
-    parts->density.emplace(std::move(direct), parts->placement, render::kShapeGreen);
+    parts->density.emplace(std::move(direct), parts->placement,
+                           render::foliage_colour(leaves.colour));
   } else {
     surfaces.push_back(render::make_surface(parts->embree.get(), parts->mesh, parts->placement));
   }
@@ -152,6 +154,7 @@ Subject shape_subject(std::shared_ptr<const TreeModel> shape) {
   Surfaces surfaces;
   for (const Instance& instance : parts->model->instances) {
     if (parts->model->primitives[instance.primitive].triangles.empty()) continue;
+    if (!parts->leaf_colour) parts->leaf_colour = render::colour_of_shape(*parts->model, instance);
     surfaces.push_back(render::make_surface(parts->embree.get(), *parts->model, instance,
                                             render::Look::shape, parts->placement));
   }
@@ -185,7 +188,7 @@ Subject field_subject(const std::filesystem::path& file, std::optional<double> t
   Surfaces surfaces;
   if (surfacing == Surfacing::direct) {
     parts->density.emplace(std::make_shared<const DirectSurface>(field, device), parts->placement,
-                           render::kShapeGreen);
+                           render::foliage_colour(std::nullopt));
   } else {
     if (progress) progress("polygonise", 0);
     parts->mesh = lattice_mesh(polygonise(*field, 0), field->lattice());

@@ -23,6 +23,7 @@ Shape extract(const LeafSet& leaves, const Options& asked, Device& device,
 
   watch.start("snap");
   shape.mesh = finish_mesh(std::move(polygons), stages.density(), field.lattice(), report);
+  shape.mesh.colour = leaves.colour;
   report.counts.mesh_vertices = shape.mesh.positions.size();
   report.counts.mesh_triangles = shape.mesh.triangles.size();
 

@@ -123,6 +123,7 @@ void check(const OptionRow& row, Enum value) {
   }
 }
 
+void check(const OptionRow&, const Srgb&) {}
 void check(const OptionRow&, bool) {}
 
 template <class Value>

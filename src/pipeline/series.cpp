@@ -111,6 +111,7 @@ class Series {
     Report& report = entry.report;
     SeriesEntry result;
     result.mesh = lattice_mesh(polygons, field.lattice());
+    result.mesh.colour = entry.report.leaf_colour;
     report.counts.mesh_vertices = result.mesh.positions.size();
     report.counts.mesh_triangles = result.mesh.triangles.size();
     stages_.measure(field, report);

@@ -377,6 +377,7 @@ void Stages::prepare_at(Report& report) {
 void Stages::describe(Report& report) const {
   const Options& options = report.options;
   report.leaf_area = leaves_.area;
+  report.leaf_colour = leaves_.colour;
   report.counts.leaves = leaves_.leaf_count;
   report.counts.leaf_vertices = leaves_.vertices.size();
   report.counts.leaf_points = points_.value.points.size();

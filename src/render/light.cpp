@@ -2,21 +2,14 @@
 #include "render/light.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+
+#include "colour/colour.h"
 
 namespace leafhull::render {
 namespace {
 
-/// IEC 61966-2-1, decoded.
-const std::array<float, 256> kLinear = [] {
-  std::array<float, 256> table;
-  for (int i = 0; i < 256; ++i) {
-    const float s = i / 255.0f;
-    table[i] = s <= 0.04045f ? s / 12.92f : std::pow((s + 0.055f) / 1.055f, 2.4f);
-  }
-  return table;
-}();
+constexpr double kLitLightness = 0.66;  // in Oklab
 
 }  // namespace
 
@@ -34,13 +27,15 @@ Vec3f develop(Vec3f radiance) {
   return {shoulder(radiance.x), shoulder(radiance.y), shoulder(radiance.z)};
 }
 
-float linear(std::uint8_t srgb) { return kLinear[srgb]; }
+Vec3f foliage_colour(const std::optional<Vec3f>& leaves) {
+  const Vec3d lab = oklab_of(leaves.value_or(kLeafGreen));
+  return shown_oklab({(lab.x + kLitLightness) / 2, lab.y, lab.z});
+}
+
+float linear(std::uint8_t srgb) { return linear_of_srgb(srgb); }
 
 std::uint8_t srgb(float linear) {
-  if (linear >= 1) return 255;
-  const float x = std::max(linear, 0.0f);
-  const float s = x <= 0.0031308f ? 12.92f * x : 1.055f * std::pow(x, 1 / 2.4f) - 0.055f;
-  return static_cast<std::uint8_t>(std::lround(255 * s));
+  return static_cast<std::uint8_t>(std::lround(255 * srgb_of_linear(linear)));
 }
 
 }  // namespace leafhull::render

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "render/camera.h"
 
@@ -15,13 +16,16 @@ constexpr Vec3f kWhite{1, 1, 1};
 constexpr Vec3f kSun{2.30f, 2.08f, 1.68f};
 constexpr Vec3f kZenith{0.46f, 0.58f, 0.84f}, kHorizon{0.70f, 0.71f, 0.70f};
 constexpr Vec3f kPaperBounce{0.40f, 0.38f, 0.35f};
-constexpr Vec3f kShapeGreen{0.21f, 0.33f, 0.13f};
 
 constexpr float kSunRadius = 0.045f;  // tangent of the sun's angle: soft edges
 constexpr float kSkyReach = 0.35f;    // how far leaves shade one another from the sky
 
 /// The direction to the sun: from the upper left, before the tree.
 Vec3f sun_direction(const Camera& camera);
+
+/// What an abstract shape of leaves of this colour, or of one that nobody tells, is drawn in: their
+/// hue and chroma, and half of the way from their lightness to that of a lit mass.
+Vec3f foliage_colour(const std::optional<Vec3f>& leaves);
 
 /// What the sky, or below the horizon the paper, sends from a unit direction.
 Vec3f sky(Vec3f direction);

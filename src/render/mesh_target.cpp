@@ -17,10 +17,9 @@ namespace {
 constexpr std::size_t kRays = 64;  // that one thread takes at a time
 
 Spot spot_of(const Hit& hit) {
-  const Look look = hit.surface->look;
-  return {hit.distance,    look == Look::wood ? Object::wood : Object::foliage,
+  return {hit.distance,    hit.surface->look == Look::wood ? Object::wood : Object::foliage,
           hit.position,    hit.normal,
-          hit.face_normal, look == Look::shape ? kShapeGreen : hit.surface->color(hit.uv)};
+          hit.face_normal, hit.surface->color(hit.uv)};
 }
 
 }  // namespace

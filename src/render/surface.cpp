@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "leafhull/error.h"
+#include "render/light.h"
 #include "render/texture.h"
 
 namespace leafhull::render {
@@ -42,6 +43,12 @@ void set_triangles(Surface& surface, RTCDevice device, std::size_t vertex_count,
   surface.triangles = triangles;
 }
 
+/// What a shape is drawn in, flat.
+Material shape_material(const std::optional<Vec3f>& leaves) {
+  const auto [r, g, b] = foliage_colour(leaves);
+  return {.base_color = {r, g, b, 1}};
+}
+
 }  // namespace
 
 Vec2f Surface::uv(unsigned triangle, Vec2f at) const {
@@ -57,6 +64,15 @@ Vec3f Surface::color(Vec2f uv) const { return base_color(material, image, uv); }
 bool Surface::is_hole(Vec2f uv) const {
   const double cutoff = material.alpha_mode == AlphaMode::mask ? material.alpha_cutoff : 0.5;
   return alpha(material, image, uv) < cutoff;
+}
+
+std::optional<Vec3f> colour_of_shape(const TreeModel& model, const Instance& instance) {
+  const int material = model.primitives[instance.primitive].material;
+  if (material < 0) return std::nullopt;
+  const auto& [r, g, b, alpha] = model.materials[material].base_color;
+  const auto [low, high] = std::minmax({r, g, b});
+  if (high - low < 1e-3f) return std::nullopt;  // what programs give whom nobody coloured
+  return Vec3f{r, g, b};
 }
 
 std::shared_ptr<const Surface> make_surface(RTCDevice device, const TreeModel& model,
@@ -77,12 +93,16 @@ std::shared_ptr<const Surface> make_surface(RTCDevice device, const TreeModel& m
   }
 
   surface->uvs = primitive.uvs;
-  if (primitive.material >= 0) surface->material = model.materials[primitive.material];
+  if (look == Look::shape) {
+    surface->material = shape_material(colour_of_shape(model, instance));
+  } else if (primitive.material >= 0) {
+    surface->material = model.materials[primitive.material];
+  }
   const int image = surface->material.base_color_image;
   if (image >= 0 && !primitive.uvs.empty() && !model.images[image].empty()) {
     surface->image = &model.images[image];
   }
-  if (surface->material.alpha_mode != AlphaMode::opaque && look != Look::shape) {
+  if (surface->material.alpha_mode != AlphaMode::opaque) {
     RTCGeometry geometry = surface->geometry.get();
     rtcSetGeometryUserData(geometry, surface.get());
     rtcSetGeometryIntersectFilterFunction(geometry, pass_holes);
@@ -98,6 +118,7 @@ std::shared_ptr<const Surface> make_surface(RTCDevice device, const Mesh& mesh,
   set_triangles(*surface, device, mesh.positions.size(), mesh.triangles, placement,
                 [&](std::size_t i) { return mesh.origin + Vec3d(mesh.positions[i]); });
   surface->normals = mesh.normals;
+  surface->material = shape_material(mesh.colour);
   rtcSetGeometryBuildQuality(surface->geometry.get(), RTC_BUILD_QUALITY_LOW);
   rtcCommitGeometry(surface->geometry.get());
   return surface;

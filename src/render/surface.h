@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -43,6 +44,9 @@ std::shared_ptr<const Surface> make_surface(RTCDevice device, const TreeModel& m
 
 std::shared_ptr<const Surface> make_surface(RTCDevice device, const Mesh& mesh,
                                             const Placement& placement);
+
+/// The base colour of a shape that was read from a file; none where it is grey, as nobody gave one.
+std::optional<Vec3f> colour_of_shape(const TreeModel& model, const Instance& instance);
 
 /// The vertices of an instance in model space.
 std::vector<Vec3d> world_positions(const TreeModel& model, const Instance& instance);

@@ -29,6 +29,7 @@ Kind kind_of(double) { return Kind::number; }
 Kind kind_of(const std::vector<std::string>&) { return Kind::fixed; }
 Kind kind_of(const TextureEllipse&) { return Kind::fixed; }
 Kind kind_of(const LeafColour&) { return Kind::fixed; }
+Kind kind_of(const Srgb&) { return Kind::fixed; }
 
 template <class Enum>
 requires std::is_enum_v<Enum> Kind kind_of(Enum) { return Kind::name; }

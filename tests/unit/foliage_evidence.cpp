@@ -44,7 +44,7 @@ TEST(ColourEvidence, IsFiniteForAnyColour) {
 }
 
 TEST(AlphaEvidence, NeedsHoles) {
-  Look look;
+  Appearance look;
   EXPECT_EQ(alpha_evidence(look, AlphaMode::mask, false), 0);
   EXPECT_EQ(alpha_evidence(look, AlphaMode::blend, false), 0);
   EXPECT_GT(alpha_evidence(look, AlphaMode::mask, true), 0);  // an image that cannot be read
@@ -56,17 +56,17 @@ TEST(AlphaEvidence, NeedsHoles) {
 }
 
 TEST(ShapeEvidence, TellsCardsAndLobesFromTubesGroundAndFruit) {
-  Look cards{.pieces = 500, .piece_length = 0.02};
+  Appearance cards{.pieces = 500, .piece_length = 0.02};
   cards.forms.flat = 1;
-  Look one_card = cards;
+  Appearance one_card = cards;
   one_card.pieces = 1;
-  Look lobes{.pieces = 3, .piece_length = 0.4};
+  Appearance lobes{.pieces = 3, .piece_length = 0.4};
   lobes.forms.lobe = 1;
-  Look fruit{.pieces = 20, .piece_length = 0.02};
+  Appearance fruit{.pieces = 20, .piece_length = 0.02};
   fruit.forms.lobe = 1;
-  Look tubes{.pieces = 4, .piece_length = 0.8};
+  Appearance tubes{.pieces = 4, .piece_length = 0.8};
   tubes.forms.tube = 1;
-  Look slab{.pieces = 1, .piece_length = 1};
+  Appearance slab{.pieces = 1, .piece_length = 1};
   slab.forms.slab = 1;
   EXPECT_GT(shape_evidence(cards, 1), 1.5);
   EXPECT_LT(shape_evidence(one_card, 1), 0.5);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "foliage/look.h"
+#include "foliage/appearance.h"
 
 #include <Eigen/Dense>
 #include <algorithm>
@@ -253,10 +253,10 @@ void renumber(const Surface& surface, std::vector<std::uint8_t>& classes) {
   for (std::uint8_t& c : classes) c = number[c];
 }
 
-std::vector<Look> describe(const Surface& surface, const std::vector<std::uint8_t>& part_of,
-                           std::uint32_t primitive, bool has_colour, const Box& all) {
+std::vector<Appearance> describe(const Surface& surface, const std::vector<std::uint8_t>& part_of,
+                                 std::uint32_t primitive, bool has_colour, const Box& all) {
   const std::size_t parts = part_of.empty() ? 1 : std::ranges::max(part_of) + std::size_t{1};
-  std::vector<Look> looks(parts);
+  std::vector<Appearance> looks(parts);
   std::vector<Vec3d> colours(parts);
   std::vector<double> kept(parts);
   std::vector<std::vector<bool>> has_piece(parts, std::vector<bool>(surface.pieces.size()));
@@ -264,7 +264,7 @@ std::vector<Look> describe(const Surface& surface, const std::vector<std::uint8_
     const std::size_t part = part_of.empty() ? 0 : part_of[t];
     const Piece& piece = surface.pieces[surface.piece_of[t]];
     const double area = surface.areas[t];
-    Look& look = looks[part];
+    Appearance& look = looks[part];
     look.area += area;
     kept[part] += area * surface.shown[t].kept;
     colours[part] = colours[part] + Vec3d(surface.shown[t].colour) * (area * surface.shown[t].kept);
@@ -282,7 +282,7 @@ std::vector<Look> describe(const Surface& surface, const std::vector<std::uint8_
     }
   }
   for (std::size_t part = 0; part < parts; ++part) {
-    Look& look = looks[part];
+    Appearance& look = looks[part];
     look.primitive = primitive;
     look.has_colour = has_colour && kept[part] > 0;
     if (kept[part] > 0) look.colour = Vec3f(colours[part] / kept[part]);
@@ -304,12 +304,12 @@ Vec3d transformed(const Transform& m, Vec3d p) {
   return {row(0), row(1), row(2)};
 }
 
-Looks look_at(const TreeModel& tree, std::uint32_t primitive, const Transform& to_world,
-              const Box& all, Cutting cutting) {
+Appearances look_at(const TreeModel& tree, std::uint32_t primitive, const Transform& to_world,
+                    const Box& all, Cutting cutting) {
   const Primitive& source = tree.primitives[primitive];
   const Surface surface = survey(tree, source, to_world, all);
   const bool has_colour = SurfaceColour(tree, source, 1).is_known();
-  Looks looks;
+  Appearances looks;
   if (cutting == Cutting::where_it_differs) {
     looks.part_of = classes_of(surface, has_colour);
     renumber(surface, looks.part_of);

@@ -18,7 +18,7 @@ struct Forms {
 
 /// A part of a primitive that looks alike: all of it, or its triangles of one colour, with holes,
 /// or of one form.
-struct Look {
+struct Appearance {
   std::uint32_t primitive = 0;
   double area = 0;  ///< world, one side, of the first instance
   Vec3f colour{};   ///< linear, mean of what is visible
@@ -31,8 +31,8 @@ struct Look {
 };
 
 /// The looks of a primitive and, where there is more than one, which of them each triangle has.
-struct Looks {
-  std::vector<Look> parts;
+struct Appearances {
+  std::vector<Appearance> parts;
   std::vector<std::uint8_t> part_of;  ///< by triangle; empty: all of the first
 };
 
@@ -40,8 +40,8 @@ struct Looks {
 enum class Cutting { none, where_it_differs };
 
 /// @param to_world the primitive's first place; @param all the box of everything in the file.
-Looks look_at(const TreeModel& tree, std::uint32_t primitive, const Transform& to_world,
-              const Box& all, Cutting cutting);
+Appearances look_at(const TreeModel& tree, std::uint32_t primitive, const Transform& to_world,
+                    const Box& all, Cutting cutting);
 
 /// Where a transform takes a point.
 Vec3d transformed(const Transform& to_world, Vec3d p);
