@@ -1,0 +1,61 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Checks that every source and header of src/ and include/ compiles by itself, and uses all that it
+defines for itself: in a unity build it may lean on its neighbours. The arguments are the folder of a
+build that is none, where CMake has left compile_commands.json, and how many to check at a time."""
+
+import concurrent.futures
+import json
+import pathlib
+import re
+import shlex
+import subprocess
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+INCLUDE = re.compile(r'^#include [<"]([^>"]+)[>"]', re.MULTILINE)
+CHECK = ("-fsyntax-only", "-Wno-everything", "-Wunused", "-Werror")
+
+
+def flags_of(entry):
+    words = shlex.split(entry["command"])[1:]
+    output = words.index("-o")
+    return [word for word in words[:output] + words[output + 2 :] if word not in ("-c", entry["file"])]
+
+
+def checks(build):
+    """Pairs of a file's name and what compiles it."""
+    database = json.loads((build / "compile_commands.json").read_text())
+    sources = {pathlib.Path(e["file"]): flags_of(e) for e in database}
+    sources = {file: flags for file, flags in sources.items() if ROOT / "src" in file.parents}
+    rooms, seen = {}, set()
+    for file, flags in sources.items():
+        rooms.setdefault(file.relative_to(ROOT / "src").parts[0], flags)
+        # What a source includes first is by itself there.
+        seen.update(INCLUDE.findall(file.read_text(encoding="utf-8"))[:1])
+        yield file, ["clang++-16", *flags, *CHECK, str(file)]
+    for folder in ("include", "src"):
+        for header in sorted((ROOT / folder).rglob("*.h")):
+            name = header.relative_to(ROOT / folder)
+            if name.as_posix() not in seen:
+                flags = rooms.get(name.parts[0], next(iter(rooms.values())))
+                only_it = ("-include", str(header), "-x", "c++", "/dev/null")
+                yield header, ["clang++-16", *flags, *CHECK, *only_it]
+
+
+def main():
+    def fails(check):
+        file, command = check
+        done = subprocess.run(command, stderr=subprocess.PIPE, text=True, check=False)
+        if done.returncode:
+            print(f"{file.relative_to(ROOT)} does not compile by itself:\n{done.stderr}")
+        return done.returncode
+
+    build = pathlib.Path(sys.argv[1])
+    with concurrent.futures.ThreadPoolExecutor(int(sys.argv[2])) as pool:
+        results = list(pool.map(fails, checks(build)))
+    return not results or any(results)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
