@@ -169,7 +169,6 @@ void run_extract(const Arguments& arguments) {
     return stages.run("leaves", [&] { return find_leaves(tree, options.leaf_options()); });
   }();
   warn(leaves.warnings);
-  console.say(leaves.choice->told);
   Device device = stages.run("device", [&] { return opening.get(); });
   Shape shape = extract(leaves, options, device, [&](std::string_view stage, double done) {
     console.progress(stage, done);
@@ -190,6 +189,7 @@ void run_extract(const Arguments& arguments) {
 
   say_details(console, report);
   say_times(console, stages.with_total());
+  console.say(leaves.choice->told);
   say_summary(console, shape, arguments.files, stages.total());
 }
 

@@ -116,7 +116,7 @@ void print_candidates(const LeafChoice& choice) {
     const LeafEvidence& e = c.evidence;
     const std::string mesh = c.mesh.empty() ? c.node : c.mesh;
     const std::string more =
-        rows[i].candidates > 1 ? " and " + std::to_string(rows[i].candidates - 1) + " more" : "";
+        rows[i].candidates > 1 ? " and " + count(rows[i].candidates - 1) + " more" : "";
     lines.push_back({std::string(name_of(c.verdict)), printable(c.material), printable(mesh) + more,
                      c.colour, std::string(name_of(c.alpha_mode)), count(rows[i].triangles),
                      weight(e.name), weight(e.alpha), weight(e.colour), weight(e.shape),

@@ -45,7 +45,9 @@ class Extract(CommandTest):
     def test_summary(self):
         joined = (*DRAFT, "--radius-max", "12")  # of fewer than 50 pieces, which would be said
         result = self.succeed("extract", self.tree, "-o", self.shape, *joined)
-        self.assertEqual(len(result.stderr.splitlines()), 1, result.stderr)
+        leaves, *rest = result.stderr.splitlines()
+        self.assertEqual(leaves, "leaves: leaf (name, shape)")
+        self.assertEqual(len(rest), 1, result.stderr)
         for word in ("vertices", "triangles", "component", "T = ", "shape.glb"):
             self.assertIn(word, result.stderr)
         quiet = self.succeed("extract", self.tree, "-o", self.shape, *DRAFT, "-q")

@@ -81,7 +81,8 @@ class Leaves(CommandTest):
 
     def test_colours_are_checked(self):
         for text in ("green", "#12", "#12345g", "#4a7a2c,", "#4a7a2c,x", "#4a7a2c,-1"):
-            self.fail_with(2, ["--leaves-colour", text], "inspect", ASH, "--leaves-colour", text)
+            self.fail_with(2, ["--leaves-colour"], "inspect", ASH, "--leaves-colour", text)
+        self.fail_with(2, ["--leaf-colour"], "inspect", ASH, "--leaf-colour", "red")
 
     def test_a_colour_is_in_the_report_and_in_what_to_try(self):
         def change(document):
@@ -135,13 +136,14 @@ class Leaves(CommandTest):
     def test_a_forest_makes_no_tree_of_a_meadow(self):
         path = self.input("scene.glb", scene())
         out = self.folder / "forest"
-        result = self.succeed("forest", path, "-o", out, "--preset", "draft", "--instances")
+        result = self.succeed("forest", path, "-o", out, "--preset", "draft", "--merge", "none")
         page = self.inspect(path)
         verdicts = {c["material"]: c["verdict"] for c in page["candidates"]}
         self.assertEqual(verdicts, {"Leaf": "leaves", "Grass": "undergrowth", "Ground": "no"})
         self.assertNotIn("Meadow", result.stderr)
-        report = json.loads((out / "forest.json").read_text())
-        self.assertEqual(report["counts"]["trees"], 2)
+        forest, _ = glb.unpack((out / "forest.glb").read_bytes())
+        self.assertEqual([mesh["name"] for mesh in forest["meshes"]], ["abstract shape"])
+        self.assertIn("2 trees", result.stderr)
 
     def test_shared_files_give_the_right_leaves(self):
         if not SHARED.exists():

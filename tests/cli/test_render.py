@@ -149,19 +149,38 @@ class Subjects(Render):
 
     def test_shapes_are_told_from_trees(self):
         first = self.pixels(subject=self.glb)
+        paper = first[2][0][0]
         for shape in (self.glb, self.obj):
             result = self.render(subject=shape)
             self.assertIn(f"{shape} is drawn as an abstract shape", result.stderr)
             rows = png.pixels(self.picture.read_bytes())[2]
             self.assertTrue(any(is_green(pixel) for row in rows for pixel in row))
-            self.assertEqual(rows, first[2])
+            if shape == self.glb:
+                self.assertEqual(rows, first[2])
+            # An OBJ does not tell the leaves' colour.
+            for row, first_row in zip(rows, first[2], strict=True):
+                self.assertEqual([p == paper for p in row], [p == paper for p in first_row])
         self.assertNotIn("abstract shape", self.render("--as", "shape", subject=self.glb).stderr)
         self.assertNotIn("abstract shape", self.render(*MESH).stderr)
         as_shape = self.bytes("--as", "shape")
         self.assertNotEqual(as_shape, self.bytes(*MESH), "leaves, not their shape")
 
-    def test_a_shape_taken_for_a_tree_has_no_leaves(self):
-        self.refuse(["no leaves", "--leaves"], "--as", "tree", subject=self.obj, code=3)
+    def test_a_shape_taken_for_a_tree_is_a_guess(self):
+        result = self.render("--as", "tree", subject=self.obj)
+        self.assertIn("what the leaves are is a guess", result.stderr)
+
+    def test_leaf_colour(self):
+        def shares(*flags):
+            rows = self.pixels(*flags)[2]
+            pixels = [p for row in rows for p in row]
+            return [sum(p[i] > p[j] + 25 for p in pixels) for i, j in ((0, 1), (1, 0), (2, 1))]
+
+        for look in ("phong", "watercolour"):
+            with self.subTest(look):
+                own, red = shares("--look", look), shares("--look", look, "--leaf-colour", "#b01020")
+                self.assertGreater(own[1], 20 * own[2])
+                self.assertGreater(red[0], 4 * own[0])
+                self.assertLess(red[1], own[1] / 4)
 
     def test_a_shape_has_no_density(self):
         self.refuse(["--surface direct", "density"], "--surface", "direct", subject=self.glb)
