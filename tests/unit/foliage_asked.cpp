@@ -10,13 +10,11 @@ namespace leafhull {
 namespace {
 
 using test::card;
+using test::contains;
+using test::taken;
 using test::with_ellipse;
 using test::with_globs;
 using test::with_scale;
-
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
 
 /// A tree of trunk, twig and crown, with the crown's names given.
 TreeModel tree_with(const std::string& material, const std::string& mesh, const std::string& node,
@@ -30,10 +28,6 @@ TreeModel tree_with(const std::string& material, const std::string& mesh, const 
   tree.primitives[2].material = 1;
   tree.instances[2].node_name = node;
   return tree;
-}
-
-std::vector<bool> taken(const TreeModel& tree, const LeafOptions& options = {}) {
-  return choose_leaves(tree, options).instances;
 }
 
 TEST(Asked, GlobsReplaceTheDefaultRule) {

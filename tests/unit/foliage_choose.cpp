@@ -14,14 +14,6 @@ using namespace test;
 
 const Material kBare{};
 
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
-std::vector<bool> taken(const TreeModel& tree, const LeafOptions& options = {}) {
-  return choose_leaves(tree, options).instances;
-}
-
 /// Which triangles of a tree of one primitive are taken.
 std::vector<bool> taken_triangles(const TreeModel& tree) {
   const LeafChoice choice = choose_leaves(tree, {});

@@ -135,6 +135,15 @@ inline TreeModel model_of(std::vector<Thing> things) {
   return tree;
 }
 
+inline bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+/// By instance, whether it is taken as leaves.
+inline std::vector<bool> taken(const TreeModel& tree, const LeafOptions& options = {}) {
+  return choose_leaves(tree, options).instances;
+}
+
 inline Primitive trunk() { return tube(0.2f, 0, 3); }
 inline Primitive crown() { return ball({0, 4, 0}, 1.5f); }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <fstream>
 
@@ -46,6 +47,64 @@ TEST(Gltf, ReadsAPrimitiveAsItIs) {
   EXPECT_EQ(tree.materials[0].name, "Leaf");
   EXPECT_EQ(tree.materials[0].alpha_mode, AlphaMode::blend);
   EXPECT_TRUE(tree.warnings.empty());
+}
+
+TEST(Gltf, ReadsColoursOfVertices) {
+  const std::vector<std::array<std::uint8_t, 4>> bytes{
+      {255, 0, 0, 255}, {0, 255, 0, 0}, {0, 0, 255, 9}, {51, 51, 51, 255}};
+  const std::vector<Vec3f> floats{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0.2f, 0.2f, 0.2f}};
+  for (const bool normalized : {true, false}) {
+    GlbBuilder b;
+    b.add_node("crown", b.add_mesh("leaves", {square()}));
+    const int accessor =
+        normalized ? b.add_accessor(bytes, "VEC4", 5121, 4) : b.add_accessor(floats);
+    if (normalized) b.json["accessors"][accessor]["normalized"] = true;
+    b.json["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"] = accessor;
+    const TreeModel tree = read(b);
+    EXPECT_TRUE(tree.warnings.empty());
+    ASSERT_EQ(tree.primitives[0].colors.size(), 4u);
+    for (std::size_t i = 0; i < 4; ++i) {
+      expect_near(Vec3d(tree.primitives[0].colors[i]), Vec3d(floats[i]), 1e-6);
+    }
+  }
+}
+
+TEST(Gltf, PassesOverColoursThatAreNone) {
+  const std::vector<Vec3f> three{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  const std::vector<Vec3f> odd{{1, 0, 0}, {0, NAN, 0}, {0, 0, 1}, {1, 1, 1}};
+  for (const auto& colors : {three, odd}) {
+    GlbBuilder b;
+    b.add_node("crown", b.add_mesh("leaves", {square()}));
+    b.json["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"] = b.add_accessor(colors);
+    const TreeModel tree = read(b);
+    EXPECT_TRUE(tree.primitives[0].colors.empty());
+    ASSERT_EQ(tree.warnings.size(), 1u);
+    EXPECT_NE(tree.warnings[0].find("COLOR_0"), std::string::npos);
+  }
+  GlbBuilder b;
+  b.add_node("crown", b.add_mesh("leaves", {square()}));
+  b.json["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"] = 99;
+  EXPECT_EQ(read(b).warnings.size(), 1u);
+}
+
+TEST(Gltf, KnowsWhatNodesHangFromAndTheirLevels) {
+  GlbBuilder b;
+  const int mesh = b.add_mesh("leaves", {square()});
+  b.add_node("Oak", -1);
+  b.add_node("LOD0", mesh);
+  b.add_node("far", mesh);
+  b.json["nodes"][0]["children"] = {1, 2};
+  b.json["nodes"][1]["extensions"]["MSFT_lod"]["ids"] = {2, 77};
+  b.json["scenes"][0]["nodes"] = {0};
+  const TreeModel tree = read(b);
+  ASSERT_EQ(tree.nodes.size(), 3u);
+  EXPECT_EQ(tree.nodes[1].name, "LOD0");
+  EXPECT_EQ(tree.nodes[0].parent, -1);
+  EXPECT_EQ(tree.nodes[2].parent, 0);
+  EXPECT_EQ(tree.nodes[1].level, 0);
+  EXPECT_EQ(tree.nodes[2].level, 1);
+  ASSERT_EQ(tree.instances.size(), 2u);
+  EXPECT_EQ(tree.instances[0].node, 1);
 }
 
 TEST(Gltf, ComposesTransformsInDouble) {

@@ -83,6 +83,37 @@ TEST(Obj, NamesPartsAndMaterials) {
   EXPECT_EQ(tree.primitives[2].material, tree.primitives[0].material);
 }
 
+TEST(Obj, KnowsWhatGroupsHangFrom) {
+  const TreeModel tree = read_lines(
+      "v 0 0 0\nv 1 0 0\nv 1 1 0\no birch\ng trunk\nf 1 2 3\ng crown\nf 1 2 3\n"
+      "o ash\nf 1 2 3\n");
+  ASSERT_EQ(tree.nodes.size(), 4u);
+  const auto path = [&](std::size_t i) {
+    std::string text;
+    for (int node = tree.instances[i].node; node >= 0; node = tree.nodes[node].parent) {
+      text = '/' + tree.nodes[node].name + text;
+    }
+    return text;
+  };
+  EXPECT_EQ(path(0), "/birch/trunk");
+  EXPECT_EQ(path(1), "/birch/crown");
+  EXPECT_EQ(path(2), "/ash");
+}
+
+TEST(Obj, ReadsColoursOfVertices) {
+  const TreeModel tree = read_lines("v 0 0 0 1 0 0.5\nv 1 0 0 0 0 0\nv 1 1 0 1 1 1\nf 1 2 3\n");
+  const std::vector<Vec3f>& colors = tree.primitives[0].colors;
+  ASSERT_EQ(colors.size(), 3u);
+  EXPECT_EQ(colors[0].x, 1);
+  EXPECT_NEAR(colors[0].z, 0.214, 1e-3);  // sRGB
+  EXPECT_EQ(colors[2], Vec3f(1, 1, 1));
+  // Of some vertices, and what is no colour.
+  for (const char* second : {"v 1 0 0", "v 1 0 0 1 2 1", "v 1 0 0 1 nan 0", "v 1 0 0 1 1"}) {
+    const std::string text = std::string("v 0 0 0 1 0 0\n") + second + "\nv 1 1 0 1 1 1\nf 1 2 3\n";
+    EXPECT_TRUE(read_lines(text).primitives[0].colors.empty()) << second;
+  }
+}
+
 TEST(Obj, ReadsNormalsUvsAndRelativeIndices) {
   const TreeModel tree = read_lines(
       "v 0 0 0\nv 1 0 0\nv 1 1 0\nvt 0 0.25\nvt 1 0\nvt 1 1\nvn 0 0 1\n"
