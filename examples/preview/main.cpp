@@ -3,9 +3,7 @@
 #include <array>
 #include <iostream>
 #include <memory>
-#include <set>
 #include <string>
-#include <tuple>
 #include <vector>
 
 #include "leafhull/error.h"
@@ -30,24 +28,14 @@ struct Arguments {
 
 /// For every instance whether it is leaves.
 std::vector<bool> are_leaves(const TreeModel& tree, const std::vector<std::string>& globs) {
-  std::set<std::tuple<std::string, std::string, std::string>> names;
   LeafOptions options;
   options.globs = globs;
-  for (const PrimitiveSummary& row : summarize(tree, options)) {
-    if (row.leaves) names.emplace(row.material, row.mesh, row.node);
-  }
-  if (names.empty()) {
+  const LeafChoice choice = choose_leaves(tree, options);
+  if (!choice.any()) {
     throw Error(ErrorCode::input, tree.path.string() + ": no leaves found",
                 "Name them with --leaves GLOB, as for leafhull extract.");
   }
-  std::vector<bool> result;
-  for (const Instance& instance : tree.instances) {
-    const Primitive& primitive = tree.primitives[instance.primitive];
-    const std::string material =
-        primitive.material < 0 ? "" : tree.materials[primitive.material].name;
-    result.push_back(names.contains({material, primitive.mesh_name, instance.node_name}));
-  }
-  return result;
+  return choice.instances;
 }
 
 /// The tree's box standing on the foot of its wood at the origin, its longest side 1.

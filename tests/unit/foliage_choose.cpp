@@ -146,8 +146,12 @@ TEST(Choice, VertexColoursTellOnePieceByTriangle) {
     const auto [a, b, c] = mesh.triangles[t];
     const float low = std::min({mesh.positions[a].y, mesh.positions[b].y, mesh.positions[c].y});
     const float high = std::max({mesh.positions[a].y, mesh.positions[b].y, mesh.positions[c].y});
-    if (low > 3) EXPECT_TRUE(leaves[t]);
-    if (high < 3) EXPECT_FALSE(leaves[t]);
+    if (low > 3) {
+      EXPECT_TRUE(leaves[t]);
+    }
+    if (high < 3) {
+      EXPECT_FALSE(leaves[t]);
+    }
   }
 }
 

@@ -114,9 +114,16 @@ inline Material painted(std::string name, Vec3f linear) {
 
 /// A thing with names and a material of its own.
 struct Thing {
+  Thing(Primitive shape, Material painted_so, std::string mesh_name = "",
+        std::string node_name = "")
+      : primitive(std::move(shape)),
+        material(std::move(painted_so)),
+        mesh(std::move(mesh_name)),
+        node(std::move(node_name)) {}
+
   Primitive primitive;
   Material material;
-  std::string mesh{}, node{};
+  std::string mesh, node;
 };
 
 /// Each thing placed once where it is.
