@@ -67,6 +67,13 @@ const NameSign& place_sign(const NameSign& mesh, const NameSign& node) {
   return std::abs(node.weight) > std::abs(mesh.weight) ? node : mesh;
 }
 
+/// Whether a transform is finite and flattens nothing.
+bool stands(const Transform& m) {
+  const auto row = [&](int i) { return Vec3d{m[i][0], m[i][1], m[i][2]}; };
+  const double volume = dot(row(0), cross(row(1), row(2)));
+  return std::isfinite(volume + m[0][3] + m[1][3] + m[2][3]) && volume != 0;
+}
+
 /// The signs of a candidate's names.
 struct Signs {
   NameSign material, image, place, above;
@@ -135,6 +142,7 @@ class CandidateFinder {
     if (box.empty()) return;
     for (const std::size_t g : groups) {
       for (const std::uint32_t i : groups_[g].instances) {
+        if (!stands(instances_[i].to_world)) continue;
         for (int corner = 0; corner < 8; ++corner) {
           all_.include(transformed(instances_[i].to_world, {corner & 1 ? box.high.x : box.low.x,
                                                             corner & 2 ? box.high.y : box.low.y,
@@ -144,13 +152,23 @@ class CandidateFinder {
     }
   }
 
+  /// The first instance that shows something, or simply the first.
+  const Instance& first_standing(const std::vector<std::size_t>& groups) const {
+    for (const std::size_t g : groups) {
+      for (const std::uint32_t i : groups_[g].instances) {
+        if (stands(instances_[i].to_world)) return instances_[i];
+      }
+    }
+    return instances_[groups_[groups.front()].instances.front()];
+  }
+
   /// The parts of a primitive, for each group of its instances.
   void look_at_all(std::uint32_t primitive, const std::vector<std::size_t>& groups) {
     const Primitive& source = tree_.primitives[primitive];
     const bool is_plain = std::ranges::all_of(groups, [&](std::size_t g) {
       return std::abs(groups_[g].signs.material.weight) >= kSaysWhatItIs;
     });
-    const Instance& first = instances_[groups_[groups.front()].instances.front()];
+    const Instance& first = first_standing(groups);
     Appearances looks = look_at(tree_, primitive, first.to_world, all_,
                                 is_plain ? Cutting::none : Cutting::where_it_differs);
     std::vector<std::size_t> triangles(looks.parts.size());
@@ -208,10 +226,13 @@ class CandidateFinder {
     const double rise = all_.high.y - all_.low.y;
     if (!(rise > 0)) return 0.5;
     double sum = 0;
+    std::size_t count = 0;
     for (const std::uint32_t i : group.instances) {
+      if (!stands(instances_[i].to_world)) continue;
       sum += centre.y + instances_[i].to_world[1][3] - first[1][3];
+      ++count;
     }
-    return (sum / static_cast<double>(group.instances.size()) - all_.low.y) / rise;
+    return count > 0 ? (sum / static_cast<double>(count) - all_.low.y) / rise : 0.5;
   }
 
   /// What the names of all things in a file say alike tells none of them apart.

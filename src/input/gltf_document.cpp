@@ -21,7 +21,7 @@ constexpr std::int64_t kLargestOffset = std::int64_t{1} << 53;  // exact in ever
 constexpr std::array kReadExtensions = {
     "EXT_mesh_gpu_instancing",    "EXT_meshopt_compression", "EXT_texture_webp",
     "KHR_draco_mesh_compression", "KHR_mesh_quantization",   "KHR_materials_pbrSpecularGlossiness",
-    "KHR_texture_basisu",         "KHR_texture_transform"};
+    "KHR_texture_basisu",         "KHR_texture_transform",   "MSFT_lod"};
 
 constexpr std::array kHarmlessExtensions = {
     "ADOBE_materials_", "EXT_lights_", "EXT_texture_avif", "KHR_lights_",

@@ -49,7 +49,10 @@ TEST(OptionTable, HasEveryOptionOnce) {
                                                "band-low-percent",
                                                "band-high-percent",
                                                "erosion",
-                                               "dilation"};
+                                               "dilation",
+                                               "not-leaves",
+                                               "leaves-colour",
+                                               "leaf-colour"};
   std::set<std::string_view> found;
   for (const OptionRow& row : option_table()) {
     EXPECT_TRUE(found.insert(row.name).second) << row.name << " stands twice";

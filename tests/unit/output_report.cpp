@@ -78,12 +78,15 @@ TEST(Report, ResolvesEveryParameter) {
 }
 
 TEST(Report, CopiesEveryFigure) {
-  const Json report = report_of(sample_shape());
-  EXPECT_EQ(report["counts"].dump(),
-            R"({"leaves":1,"leaf_vertices":2,"leaf_points":16,"leaf_area":17.5,)"
-            R"("dropped_leaves":3,"split_components":4,)"
-            R"("evaluated_voxels":5000000000,"evaluated_pairs":6,"mesh_vertices":7,)"
-            R"("mesh_triangles":8,"components":9,"dropped_components":10})");
+  Shape shape = sample_shape();
+  shape.report.leaf_colour = Vec3f{0.068478f, 0.194618f, 0.025187f};
+  const Json report = report_of(shape);
+  EXPECT_EQ(
+      report["counts"].dump(),
+      R"({"leaves":1,"leaf_vertices":2,"leaf_points":16,"leaf_area":17.5,"leaf_colour":"#4a7a2c",)"
+      R"("dropped_leaves":3,"split_components":4,)"
+      R"("evaluated_voxels":5000000000,"evaluated_pairs":6,"mesh_vertices":7,)"
+      R"("mesh_triangles":8,"components":9,"dropped_components":10})");
   EXPECT_EQ(report["density"].dump(),
             R"({"mean":0.1,"variance":0.25,"deviation":0.5,"p1":0.3,"p2":0.4})");
   EXPECT_EQ(report["metrics"].dump(),

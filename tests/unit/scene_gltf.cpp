@@ -157,9 +157,8 @@ TEST_F(GltfScene, NamesOfNodesChooseLeavesToo) {
 TEST_F(GltfScene, WithoutLeavesItListsWhatThereIs) {
   GlbBuilder builder = forest();
   test::expect_refused(folder, folder.write("forest.glb", builder.glb()),
-                       "no leaves in forest.glb: no masked or blended material and no name with "
-                       "leaf, leaves, foliage or needle; it holds materials bark; meshes ground; "
-                       "nodes ground");
+                       "no leaves in forest.glb: neither names nor holes, colours or shapes tell "
+                       "any; it holds materials bark; meshes ground; nodes ground");
   test::expect_refused(folder, folder.write("empty.glb", GlbBuilder().glb()),
                        "empty.glb holds no triangles");
   test::expect_refused(folder, folder.write("not.glb", std::string("model,x,y,z\n")),
