@@ -11,6 +11,7 @@
 #include "leafhull/error.h"
 #include "watercolour/foot.h"
 #include "watercolour/passes.h"
+#include "watercolour/things.h"
 
 namespace leafhull::watercolour {
 namespace {
@@ -53,8 +54,15 @@ class Painting {
     if (const std::optional<Foot> foot = find_foot(buffers_)) {
       lay(style_.ground, ground_around(*foot), everywhere);
     }
-    const Plane bark = lay(style_.wood, wood, passes_.mask(everywhere, visible, kWoodMelts));
-    lay(style_.wood_shadow, dark(seen, style_.wood_shadow), bark);
+    const Plane melted = passes_.mask(everywhere, visible, kWoodMelts);
+    for (const Thing& thing : things_of(buffers_)) {
+      const auto wash = [&](const Wash& of_wood) {
+        return thing.colour ? hued(of_wood, *thing.colour) : of_wood;
+      };
+      const Plane bark =
+          lay(wash(style_.wood), blurred(passes_.upload(thing.coverage), style_.wood), melted);
+      lay(wash(style_.wood_shadow), dark(seen, style_.wood_shadow), bark);
+    }
 
     const Plane crown =
         lay(style_.ambient, outline, passes_.mask(everywhere, visible, style_.gaps));
