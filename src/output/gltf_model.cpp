@@ -49,7 +49,7 @@ int add_indices(tinygltf::Model& model, const Mesh& mesh) {
 
 /// The file's material of that colour, appended if it is the first.
 int material_of(tinygltf::Model& model, const std::optional<Vec3f>& colour) {
-  const std::array<double, 4> color = leaf_base_color(colour);
+  const std::array<double, 4> color = leaf_base_color(colour ? *colour : kLeafGreen);
   const std::vector<double> factor(color.begin(), color.end());
   const auto known = std::ranges::find_if(model.materials, [&](const tinygltf::Material& m) {
     return m.pbrMetallicRoughness.baseColorFactor == factor;

@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cmath>
-#include <optional>
 #include <string_view>
 
 #include "colour/colour.h"
@@ -13,11 +12,10 @@ namespace leafhull {
 /// What the single-sided material of shapes in glTF is called.
 inline constexpr std::string_view kLeafMaterial = "leaves";
 
-/// Its base colour: that of the leaves, or green where nobody tells it.
-inline std::array<double, 4> leaf_base_color(const std::optional<Vec3f>& colour) {
+/// Its base colour for leaves of a linear colour.
+inline std::array<double, 4> leaf_base_color(Vec3f colour) {
   const auto decimal = [](float x) { return std::round(1e4 * static_cast<double>(x)) / 1e4; };
-  const auto [r, g, b] = colour.value_or(kLeafGreen);
-  return {decimal(r), decimal(g), decimal(b), 1};
+  return {decimal(colour.x), decimal(colour.y), decimal(colour.z), 1};
 }
 
 /// What meshes are called, by which is_shape() knows them.

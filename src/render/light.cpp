@@ -28,7 +28,7 @@ Vec3f develop(Vec3f radiance) {
 }
 
 Vec3f foliage_colour(const std::optional<Vec3f>& leaves) {
-  const Vec3d lab = oklab_of(leaves.value_or(kLeafGreen));
+  const Vec3d lab = oklab_of(leaves ? *leaves : kLeafGreen);
   return shown_oklab({(lab.x + kLitLightness) / 2, lab.y, lab.z});
 }
 

@@ -46,7 +46,9 @@ void set_triangles(Surface& surface, RTCDevice device, std::size_t vertex_count,
 /// What a shape is drawn in, flat.
 Material shape_material(const std::optional<Vec3f>& leaves) {
   const auto [r, g, b] = foliage_colour(leaves);
-  return {.base_color = {r, g, b, 1}};
+  Material material;
+  material.base_color = {r, g, b, 1};
+  return material;
 }
 
 }  // namespace
