@@ -46,17 +46,17 @@ std::string text_of(const LeafColour& colour) {
   std::array<char, 8> hex{};
   std::snprintf(hex.data(), hex.size(), "#%02x%02x%02x", unsigned{colour.srgb[0]},
                 unsigned{colour.srgb[1]}, unsigned{colour.srgb[2]});
-  const std::string tolerance = colour.tolerance > 0 ? ',' + number(colour.tolerance, 3) : "";
-  return hex.data() + tolerance;
+  std::string text = hex.data();
+  if (colour.tolerance > 0) text.append(",").append(number(colour.tolerance, 3));
+  return text;
 }
 
 std::vector<std::string> suggestions(const Arguments& arguments, const LeafChoice& choice) {
   const std::string tree = quoted(arguments.tree.string());
   if (!choice.any()) {
+    const std::string inspect = "leafhull inspect " + tree + ' ';
     std::vector<std::string> lines;
-    for (const std::string& option : choice.options) {
-      lines.push_back("leafhull inspect " + tree + " " + option);
-    }
+    for (const std::string& option : choice.options) lines.push_back(inspect + option);
     return lines;
   }
   std::string leaves;

@@ -13,12 +13,12 @@ double linear_of_srgb(double value) {
 }
 
 float linear_of_srgb(std::uint8_t value) {
-  static const std::array<float, 256> kTable = [] {
+  static const std::array<float, 256> decoded = [] {
     std::array<float, 256> table{};
     for (int i = 0; i < 256; ++i) table[i] = static_cast<float>(linear_of_srgb(i / 255.0));
     return table;
   }();
-  return kTable[value];
+  return decoded[value];
 }
 
 double srgb_of_linear(double value) {

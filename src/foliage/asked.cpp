@@ -82,7 +82,8 @@ double parting(std::vector<std::pair<double, double>> distances) {
     below += distances[i].second;
     sum_below += distances[i].second * distances[i].first;
     const double above = weight - below;
-    if (!(below > 0 && above > 0)) continue;
+    const bool parts = below > 0 && above > 0;
+    if (!parts) continue;
     const double apart = sum_below / below - (sum - sum_below) / above;
     const double variance = below * above * apart * apart;
     if (variance > best) {

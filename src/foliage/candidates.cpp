@@ -31,10 +31,10 @@ class NameReader {
 
   /// Of the nearest node above, that says something.
   const NameSign& above(int node) {
-    static const NameSign kNothing;
-    if (node < 0 || static_cast<std::size_t>(node) >= above_.size()) return kNothing;
+    static const NameSign nothing;
+    if (node < 0 || static_cast<std::size_t>(node) >= above_.size()) return nothing;
     std::vector<int> path;
-    const NameSign* found = &kNothing;
+    const NameSign* found = &nothing;
     for (int at = tree_.nodes[node].parent; at >= 0; at = tree_.nodes[at].parent) {
       if (above_[at]) {
         found = above_[at];

@@ -94,10 +94,11 @@ class PlaceFinder {
       path.push_back(node);
       if (path.size() > known_.size()) break;  // a cycle, which has no place in a scene
     }
-    for (auto at = path.rbegin(); at != path.rend(); ++at) {
-      const TreeNode& here = tree_.nodes[*at];
+    std::ranges::reverse(path);
+    for (const int at : path) {
+      const TreeNode& here = tree_.nodes[at];
       if (const auto own = told(here.name, here.parent, here.level)) place = own;
-      known_[*at] = {true, place};
+      known_[at] = {true, place};
     }
     return place;
   }

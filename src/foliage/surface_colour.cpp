@@ -52,7 +52,8 @@ Shown SurfaceColour::of(std::size_t triangle) const {
   for (int i = 0; i < cells_; ++i) {
     for (int j = 0; j < 2 * (cells_ - i) - 1; ++j) {
       const double third = j % 2 == 0 ? 1 / 3.0 : 2 / 3.0;
-      const double b = (i + third) / cells_, c = (j / 2 + third) / cells_, a = 1 - b - c;
+      const int half = j / 2;
+      const double b = (i + third) / cells_, c = (half + third) / cells_, a = 1 - b - c;
       ++count;
       Vec3f colour = factor;
       const auto mix = [&](const auto& x, const auto& y, const auto& z) {

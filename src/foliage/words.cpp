@@ -8,7 +8,7 @@
 namespace leafhull {
 namespace {
 
-constexpr std::size_t kListed = 5;
+constexpr std::size_t kMostLabels = 5;
 /// What adds less than this is not worth a word.
 constexpr double kWorthAWord = 0.4;
 
@@ -55,13 +55,13 @@ class List {
     std::ranges::stable_sort(entries_,
                              [](const Entry& a, const Entry& b) { return a.area > b.area; });
     std::string text;
-    for (std::size_t i = 0; i < std::min(entries_.size(), kListed); ++i) {
+    for (std::size_t i = 0; i < std::min(entries_.size(), kMostLabels); ++i) {
       const auto& [label, why, area, largest] = entries_[i];
       text.append(i == 0 ? "" : ", ").append(label);
       if (!why.empty()) text += " (" + why + ")";
     }
-    if (entries_.size() > kListed) {
-      text += " and " + std::to_string(entries_.size() - kListed) + " more";
+    if (entries_.size() > kMostLabels) {
+      text += " and " + std::to_string(entries_.size() - kMostLabels) + " more";
     }
     return text;
   }
@@ -94,7 +94,7 @@ std::string printable_name(std::string_view name) {
 }
 
 std::string label(const LeafCandidate& candidate) {
-  const std::string name = first_name(candidate);
+  std::string name = first_name(candidate);
   if (!name.empty() && !candidate.is_part) return name;
   if (!candidate.colour.empty()) return (name.empty() ? "what is " : name + ' ') + candidate.colour;
   return name.empty() ? "what has no name" : "a part of " + name;

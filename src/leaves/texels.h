@@ -21,7 +21,8 @@ inline std::int64_t wrapped(std::int64_t i, std::int64_t size, Wrap wrap) {
 /// not finite. The image is not empty.
 inline const std::uint8_t* texel_at(const Image& image, const Material& material, Vec2d uv) {
   constexpr double kFar = 1e9;  // of which an index is still exact
-  if (!(std::abs(uv.x) < kFar && std::abs(uv.y) < kFar)) return nullptr;
+  const bool is_near = std::abs(uv.x) < kFar && std::abs(uv.y) < kFar;  // false for NaN
+  if (!is_near) return nullptr;
   const auto x = wrapped(static_cast<std::int64_t>(std::floor(uv.x * image.width)), image.width,
                          material.wrap_u);
   const auto y = wrapped(static_cast<std::int64_t>(std::floor(uv.y * image.height)), image.height,
