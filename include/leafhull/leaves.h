@@ -23,7 +23,7 @@ struct TextureEllipse {
 /// Red, green and blue, 8 bits each of sRGB.
 using Srgb = std::array<std::uint8_t, 3>;
 
-/// Of which colour leaves are, where names cannot tell.
+/// The colour that leaves have, where names cannot tell them.
 struct LeafColour {
   Srgb srgb{};
   /// The largest distance in Oklab that is still this colour; 0: of two classes the nearer one.
@@ -96,7 +96,7 @@ struct LeafEvidence {
 };
 
 /// Why something is or is not taken as leaves.
-enum class LeafVerdict { leaves, other, coarser_level, undergrowth, minor, not_asked_for };
+enum class LeafVerdict { leaves, other, undergrowth, minor, not_asked_for };
 
 /// Something in a file that could be leaves: a primitive with its names, or a part of it that looks
 /// alike.
@@ -119,8 +119,8 @@ struct LeafChoice {
   std::vector<bool> cut_out;   ///< by material: the alpha of its image counts though it is opaque
   std::vector<bool> left_out;  ///< by instance: a coarser level of what is there already
   std::vector<LeafCandidate> candidates;  ///< the likeliest first
-  /// Of the leaves, linear: mean by area of texture times factor times vertex colour where it is
-  /// visible; none where nothing tells it.
+  /// The leaves' mean linear colour by visible area: texture times factor times vertex colour. None
+  /// where the file tells no colour.
   std::optional<Vec3f> colour;
   std::string told;                  ///< what was taken and what passed over, and why; one line
   std::vector<std::string> options;  ///< those that would take the likeliest candidates
@@ -143,10 +143,11 @@ inline LeafChoice choose_leaves(const TreeModel& tree, const LeafOptions& option
 ///         usage where an option is out of range.
 LeafSet find_leaves(const TreeModel& tree, const LeafOptions& options);
 
-/// The same, chosen before.
+/// Finds the leaves that were chosen before.
 LeafSet find_leaves(const TreeModel& tree, const LeafChoice& choice, const LeafOptions& options);
 
-/// The same of some instances of the tree's primitives, which need not be its own, chosen before.
+/// Finds the chosen leaves among some instances of the tree's primitives, which need not be its
+/// own.
 LeafSet find_leaves(const TreeModel& tree, std::span<const Instance> instances,
                     const LeafChoice& choice, const LeafOptions& options);
 

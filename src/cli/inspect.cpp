@@ -36,8 +36,7 @@ std::string printable(std::string name) {
 }
 
 std::string_view name_of(LeafVerdict verdict) {
-  constexpr std::string_view kNames[] = {"leaves",      "no",    "coarser level",
-                                         "undergrowth", "minor", "not asked for"};
+  constexpr std::string_view kNames[] = {"leaves", "no", "undergrowth", "minor", "not asked for"};
   return kNames[static_cast<std::size_t>(verdict)];
 }
 

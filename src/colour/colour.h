@@ -11,12 +11,12 @@ namespace leafhull {
 
 /// What 0 to 1 of sRGB stands for. Source: IEC 61966-2-1.
 double linear_of_srgb(double value);
-/// The same of 8 bits.
+/// What 8 bits of sRGB stand for.
 float linear_of_srgb(std::uint8_t value);
 /// 0 to 1 of sRGB for a linear value, which is brought to 0..1.
 double srgb_of_linear(double value);
 
-/// Of what 8 bits stand for.
+/// The linear colour of three times 8 bits of sRGB.
 Vec3f linear_of_srgb(const std::array<std::uint8_t, 3>& srgb);
 
 /// "#4a7a2c"
