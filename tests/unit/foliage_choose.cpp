@@ -55,6 +55,10 @@ TEST(Choice, ANameThatAllShareTellsNothing) {
   const TreeModel tree = model_of({{trunk(), painted("mat1", kBrown), "tree_with_leaves"},
                                    {crown(), painted("mat2", kGreen), "tree_with_leaves"}});
   EXPECT_EQ(taken(tree), kSecond);
+  // Grey boards, which the name alone would make leaves.
+  EXPECT_EQ(taken(model_of({{cards({0, 1, 0}, 1), painted("mat1", {0.2f, 0.2f, 0.2f}), "leaves"},
+                            {crown(), painted("mat2", kGreen), "leaves"}})),
+            kSecond);
 }
 
 TEST(Choice, HolesDecideWhereTheTrianglesUseThem) {
