@@ -95,6 +95,9 @@ struct LeafEvidence {
   double total() const { return name + alpha + colour + shape + place; }
 };
 
+/// What a single leaf looks like, for brush strokes.
+enum class LeafKind { broad, needle, frond };
+
 /// Why something is or is not taken as leaves.
 enum class LeafVerdict { leaves, other, undergrowth, minor, not_asked_for };
 
@@ -122,6 +125,8 @@ struct LeafChoice {
   /// The leaves' mean linear colour by visible area: texture times factor times vertex colour. None
   /// where the file tells no colour.
   std::optional<Vec3f> colour;
+  bool is_tinted = false;           ///< it is the options' and every leaf's
+  LeafKind kind = LeafKind::broad;  ///< of most of them, as names say
   std::string told;                  ///< what was taken and what passed over, and why; one line
   std::vector<std::string> options;  ///< those that would take the likeliest candidates
   std::vector<std::string> warnings;

@@ -6,6 +6,7 @@
 #include "colour/colour.h"
 #include "foliage/asked.h"
 #include "foliage/candidates.h"
+#include "foliage/kinds.h"
 #include "foliage/levels.h"
 #include "foliage/words.h"
 #include "leafhull/error.h"
@@ -196,6 +197,8 @@ LeafChoice choose_leaves(const TreeModel& tree, std::span<const Instance> instan
   }
   use_alpha(tree, candidates, choice);
   choice.colour = options.tint ? linear_of_srgb(*options.tint) : mean_colour(candidates.list);
+  choice.kind = kind_of(tree, instances, candidates.list);
+  choice.is_tinted = options.tint.has_value();
   choice.told = told_words(candidates.list, levels);
   if (options.globs.empty() && !options.colour) warn_of_doubt(candidates.list, is_guess, choice);
   asked.warn_of_unused(choice.warnings);

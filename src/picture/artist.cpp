@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "picture/artist.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -12,9 +14,9 @@
 #include "pipeline/thread_limit.h"
 #include "render/draw_buffers.h"
 #include "render/exr.h"
+#include "render/light.h"
 #include "render/shade.h"
 #include "watercolour/style.h"
-#include "watercolour/tint.h"
 
 namespace leafhull {
 namespace {
@@ -45,6 +47,41 @@ render::Camera camera_at(const View& view, const render::Placement& placement, f
   }
   return render::look_at(in_scene(view.eye), in_scene(view.target), view.up,
                          longer_angle(view.angle, static_cast<double>(aspect)), aspect);
+}
+
+/// Gives what is seen of a crown of several colours the colour of the leaves there.
+void colour_foliage(const Subject::Parts& parts, render::Buffers& buffers) {
+  if (!parts.crown_colours) return;
+  const auto colour_at = [&](Vec3f position) {
+    const auto& [origin, scale] = parts.placement;
+    return render::foliage_colour(parts.crown_colours->at(Vec3d(position) / scale + origin));
+  };
+  tbb::parallel_for(std::size_t{0}, buffers.size(), [&](std::size_t i) {
+    if (buffers.object[i] != render::Object::foliage) return;
+    buffers.color[i] = colour_at(buffers.position[i]);
+  });
+  tbb::parallel_for(std::size_t{0}, buffers.samples.size(), [&](std::size_t i) {
+    render::EdgeSample& sample = buffers.samples[i];
+    if (sample.object == render::Object::foliage) sample.color = colour_at(sample.position);
+  });
+}
+
+/// The colours of leaves that pigments are mixed for, linear.
+std::vector<Vec3f> tones_of(const Subject::Parts& parts) {
+  if (parts.crown_colours) return parts.crown_colours->tones();
+  return parts.leaf_colour ? std::vector{*parts.leaf_colour} : std::vector<Vec3f>{};
+}
+
+watercolour::Mark mark_of(LeafKind kind) {
+  switch (kind) {
+    case LeafKind::needle:
+      return watercolour::Mark::tuft;
+    case LeafKind::frond:
+      return watercolour::Mark::blade;
+    case LeafKind::broad:
+      break;
+  }
+  return watercolour::Mark::dab;
 }
 
 }  // namespace
@@ -100,9 +137,8 @@ Picture Artist::shade(const Subject::Parts& parts, const render::Buffers& buffer
           options.style ? options.style
                         : read_watercolour_style(std::string(watercolour_styles().front()));
       const auto strokes = strokes_of(parts, camera, options.width, options.height);
-      return painter_->paint(
-          buffers, strokes,
-          parts.leaf_colour ? watercolour::tinted(*style, *parts.leaf_colour) : *style);
+      const std::vector<Vec3f> tones = tones_of(parts);
+      return painter_->paint(buffers, {strokes, tones, mark_of(parts.leaf_kind)}, *style);
     }
     case Look::phong:
       break;
@@ -124,11 +160,12 @@ Rendering Artist::draw(const Subject& subject, const PictureOptions& options,
   };
   start("rays", 0);
   const render::Camera camera = camera_of(parts, options);
-  const auto buffers = std::make_shared<const render::Buffers>(
+  const auto buffers = std::make_shared<render::Buffers>(
       render::draw_buffers(parts.targets, parts.surroundings(), camera, options.width,
                            options.height, {}, [&](double done) {
                              if (progress) progress("rays", rays * done);
                            }));
+  colour_foliage(parts, *buffers);
   start("paint", rays);
   rendering.picture = shade(parts, *buffers, camera, options);
   rendering.blank = std::ranges::all_of(

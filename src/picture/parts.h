@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "foliage/crown_colours.h"
 #include "leafhull/render.h"
 #include "picture/density_target.h"
 #include "render/embree.h"
@@ -28,7 +29,9 @@ struct Subject::Parts {
   std::vector<Vec3f> points;  ///< what named viewpoints hold, each with `reach` around it
   float reach = 0;
   std::vector<LeafCard> leaves;      ///< by their number
+  LeafKind leaf_kind = LeafKind::broad;
   std::optional<Vec3f> leaf_colour;  ///< linear, mean; none: unknown
+  std::optional<CrownColours> crown_colours;  ///< where they differ
 
   std::shared_ptr<const TreeModel> model;  ///< of wood, or of a shape
   Mesh mesh;                               ///< of the foliage, where it is drawn so

@@ -2,6 +2,7 @@
 // Trees, shapes and densities as what rays are cast against.
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <string>
 #include <utility>
 
@@ -93,6 +94,31 @@ std::vector<LeafCard> cards_of(const LeafSet& leaves, const render::Placement& p
   return cards;
 }
 
+/// Needles and fronds grow away from the stem, however their cards are cut: turns what is not
+/// slender itself in its own plane.
+void point_outwards(LeafKind kind, std::vector<LeafCard>& cards) {
+  constexpr float kSlender = 0.4f, kLeast = 0.3f, kDroop = 0.4f;
+  Vec3d sum;
+  for (const LeafCard& card : cards) sum = sum + Vec3d(card.centre);
+  const Vec3f middle = Vec3f(sum / static_cast<double>(std::max<std::size_t>(cards.size(), 1)));
+  for (LeafCard& card : cards) {
+    const float major = length(card.half_major), minor = length(card.half_minor);
+    if (!(minor > kSlender * major)) continue;
+    Vec3f away = card.centre - middle;
+    if (kind == LeafKind::needle) {
+      away.y = 0;
+      away = normalized(away) - Vec3f{0, kDroop, 0};
+    }
+    const Vec3f u = card.half_major / major, v = card.half_minor / minor;
+    const Vec2f along{dot(normalized(away), u), dot(normalized(away), v)};
+    const float part = std::hypot(along.x, along.y);
+    if (part < kLeast) continue;
+    const float c = along.x / part, s = along.y / part;
+    card.half_major = (u * c + v * s) * std::hypot(major * c, minor * s);
+    card.half_minor = (v * c - u * s) * std::hypot(major * s, minor * c);
+  }
+}
+
 }  // namespace
 
 const Report& Subject::report() const { return parts_->report; }
@@ -102,7 +128,7 @@ Subject tree_subject(std::shared_ptr<const TreeModel> tree, const LeafSet& leave
                      const Progress& progress, const Frame& frame) {
   const ThreadLimit limit(device);
   const auto parts = std::make_shared<Parts>();
-  const Rest wood = rest_of(std::move(tree), *leaves.choice);
+  const Rest wood = rest_of(tree, *leaves.choice);
   parts->model = wood.model;
   parts->leaf_colour = leaves.colour;
   std::shared_ptr<const DirectSurface> direct;
@@ -125,6 +151,9 @@ Subject tree_subject(std::shared_ptr<const TreeModel> tree, const LeafSet& leave
   }
   place(all, *parts);
   parts->leaves = cards_of(leaves, parts->placement);
+  parts->leaf_kind = leaves.choice->kind;
+  if (parts->leaf_kind != LeafKind::broad) point_outwards(parts->leaf_kind, parts->leaves);
+  parts->crown_colours = CrownColours::of(*tree, leaves, parts->report.radius_max_model);
 
   parts->embree = render::open_embree();
   Surfaces surfaces;

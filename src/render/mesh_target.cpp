@@ -19,7 +19,7 @@ constexpr std::size_t kRays = 64;  // that one thread takes at a time
 Spot spot_of(const Hit& hit) {
   return {hit.distance,    hit.surface->look == Look::wood ? Object::wood : Object::foliage,
           hit.position,    hit.normal,
-          hit.face_normal, hit.surface->color(hit.uv)};
+          hit.face_normal, hit.color};
 }
 
 }  // namespace

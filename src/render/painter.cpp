@@ -71,7 +71,7 @@ class Painter {
   }
 
   static Vec3f painted(const Hit& hit) {
-    const Vec3f color = hit.surface->color(hit.uv);
+    const Vec3f color = hit.color;
     if (hit.surface->look == Look::shape) return color;
     if (hit.surface->look == Look::wood) return color * 0.75f;
     return color * (0.42f / (0.2f + luminance(color)));  // exporters' greens differ

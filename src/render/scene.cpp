@@ -120,7 +120,7 @@ Hit Scene::hit_of(Vec3f origin, Vec3f direction, const RTCHit& hit, float distan
     normal = normal + normals[corner] * weights[corner];
   }
   return {position,    normalized(normal),
-          face_normal, surface.uv(hit.primID, {hit.u, hit.v}),
+          face_normal, surface.color(hit.primID, {hit.u, hit.v}),
           &surface,    distance};
 }
 

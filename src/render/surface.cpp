@@ -61,7 +61,13 @@ Vec2f Surface::uv(unsigned triangle, Vec2f at) const {
   return {w * p.x + at.x * q.x + at.y * r.x, w * p.y + at.x * q.y + at.y * r.y};
 }
 
-Vec3f Surface::color(Vec2f uv) const { return base_color(material, image, uv); }
+Vec3f Surface::color(unsigned triangle, Vec2f at) const {
+  const Vec3f base = base_color(material, image, uv(triangle, at));
+  if (colors.empty()) return base;
+  const auto& [a, b, c] = triangles[triangle];
+  const Vec3f mixed = (1 - at.x - at.y) * colors[a] + at.x * colors[b] + at.y * colors[c];
+  return {base.x * mixed.x, base.y * mixed.y, base.z * mixed.z};
+}
 
 bool Surface::is_hole(Vec2f uv) const {
   const double cutoff = material.alpha_mode == AlphaMode::mask ? material.alpha_cutoff : 0.5;
@@ -97,8 +103,9 @@ std::shared_ptr<const Surface> make_surface(RTCDevice device, const TreeModel& m
   surface->uvs = primitive.uvs;
   if (look == Look::shape) {
     surface->material = shape_material(colour_of_shape(model, instance));
-  } else if (primitive.material >= 0) {
-    surface->material = model.materials[primitive.material];
+  } else {
+    if (primitive.material >= 0) surface->material = model.materials[primitive.material];
+    surface->colors = primitive.colors;
   }
   const int image = surface->material.base_color_image;
   if (image >= 0 && !primitive.uvs.empty() && !model.images[image].empty()) {

@@ -24,6 +24,7 @@ struct Surface {
   std::span<const Vec3f> vertices;  ///< placed; the geometry's own
   std::vector<Vec3f> normals;       ///< one per vertex, unit or zero; or none
   std::span<const Vec2f> uvs;       ///< one per vertex, or none
+  std::span<const Vec3f> colors;    ///< one per vertex, linear, or none
   std::span<const std::array<std::uint32_t, 3>> triangles;
   Material material;
   const Image* image = nullptr;  ///< of the base colour
@@ -31,8 +32,8 @@ struct Surface {
 
   /// At a point of a triangle, in Embree's barycentric coordinates.
   Vec2f uv(unsigned triangle, Vec2f at) const;
-  /// Linear, at a texture coordinate.
-  Vec3f color(Vec2f uv) const;
+  /// Linear, there.
+  Vec3f color(unsigned triangle, Vec2f at) const;
   /// Whether the texture cuts it away there.
   bool is_hole(Vec2f uv) const;
 };

@@ -12,6 +12,8 @@
 #include "watercolour/foot.h"
 #include "watercolour/passes.h"
 #include "watercolour/things.h"
+#include "watercolour/tint.h"
+#include "watercolour/tones.h"
 
 namespace leafhull::watercolour {
 namespace {
@@ -31,6 +33,12 @@ Vec3f absorbance(Vec3f color) {
   return {of(color.x), of(color.y), of(color.z)};
 }
 
+/// Leaves of one colour, and the pigments for them.
+struct Tone {
+  Style style;
+  Plane weight;  ///< how much of each pixel's foliage has it, 0..1; none: all
+};
+
 /// One picture while it is painted.
 class Painting {
  public:
@@ -43,7 +51,8 @@ class Painting {
         unit_(static_cast<float>(buffers.height)),
         absorbance_{passes.constant(0), passes.constant(0), passes.constant(0)} {}
 
-  std::vector<std::uint8_t> paint(std::span<const Stroke> leaves) {
+  std::vector<std::uint8_t> paint(const Leaves& leaves) {
+    mix_tones(leaves.tones);
     const SeenPlanes seen = passes_.see(buffers_, style_.sky, kWrap);
     const Plane everywhere = passes_.constant(1);
     const Plane visible = look_around(seen);
@@ -65,12 +74,12 @@ class Painting {
     }
 
     const Plane crown =
-        lay(style_.ambient, outline, passes_.mask(everywhere, visible, style_.gaps));
+        lay_foliage(&Style::ambient, outline, passes_.mask(everywhere, visible, style_.gaps));
     const Plane inside = passes_.mask(passes_.mask(crown, visible, 1), unlike(wood), 1);
-    lay(style_.tone, dark(seen, style_.tone), inside);
+    lay_foliage(&Style::tone, dark(seen, style_.tone), inside);
     run_together(crown);
-    lay(style_.shadow, dark(seen, style_.shadow), inside);
-    if (single_leaves) lay(style_.leaves, single_leaves, everywhere);
+    lay_foliage(&Style::shadow, dark(seen, style_.shadow), inside);
+    if (single_leaves) lay_foliage(&Style::leaves, single_leaves, everywhere);
     return passes_.develop(absorbance_, paper_.relief, style_.paper, style_.relief);
   }
 
@@ -109,8 +118,49 @@ class Painting {
     return passes_.darkness(blurred(seen.light, wash), blurred(seen.seen, wash));
   }
 
+  /// Mixes the pigments for leaves of these colours, and finds where each is.
+  void mix_tones(std::span<const Vec3f> colours) {
+    if (colours.size() < 2) {
+      tones_.push_back({colours.empty() ? style_ : tinted(style_, colours.front()), {}});
+      return;
+    }
+    const float sigma = kNeighbourhood * unit_;
+    const Weights weights = weigh_tones(buffers_, colours);
+    const Plane seen = passes_.blur(passes_.upload(weights.seen), sigma);
+    const auto lack_of = [&](const std::vector<float>& some) {
+      return passes_.darkness(passes_.blur(passes_.upload(some), sigma), seen);
+    };
+    // The first has what the others have not: all of it where no leaf is near.
+    tones_.push_back({tinted(style_, colours[0]), lack_of(weights.others)});
+    for (std::size_t i = 1; i < colours.size(); ++i) {
+      tones_.push_back({tinted(style_, colours[i]), unlike(lack_of(weights.other[i - 1]))});
+    }
+  }
+
   /// Paints a wash where `rho`, a blurred image, says, and returns where it lies.
   Plane lay(const Wash& wash, const Plane& rho, const Plane& within) {
+    const auto [alpha, density] = spread(wash, rho, within, 0);
+    glaze(wash, density);
+    return alpha;
+  }
+
+  /// The same with each tone's own pigments.
+  Plane lay_foliage(Wash Style::*of, const Plane& rho, const Plane& within) {
+    const Wash& wash = style_.*of;
+    const auto [alpha, density] =
+        spread(wash, rho, within, of == &Style::ambient ? style_.dilution : 0);
+    for (const Tone& tone : tones_) {
+      glaze(tone.style.*of, tone.weight ? passes_.mask(density, tone.weight, 1) : density);
+    }
+    return alpha;
+  }
+
+  /// Where a wash lies, and how much pigment.
+  struct Layer {
+    Plane alpha, density;
+  };
+
+  Layer spread(const Wash& wash, const Plane& rho, const Plane& within, float dilution) {
     const float crisp = std::min(0.5f, 0.35f / std::max(wash.size * unit_, 0.7f));
     Edge edge;
     edge.level = wash.level;
@@ -119,16 +169,18 @@ class Painting {
     edge.dryness = wash.dry_brush * style_.roughness;
     edge.wobble = style_.wobble;
     edge.raggedness = wash.raggedness;
-    Plane alpha = passes_.layer(rho, within, paper_, flow_, edge);
+    const Plane alpha = passes_.layer(rho, within, paper_, flow_, edge);
     const Plane around = passes_.blur(alpha, style_.edge_width * unit_);
     const Plane density = passes_.darken_edges(alpha, around, wash.edge_darkening);
-    passes_.dilute(density, flow_.turbulence, dark_, style_.turbulence, style_.backruns,
-                   &wash == &style_.ambient ? style_.dilution : 0);
+    passes_.dilute(density, flow_.turbulence, dark_, style_.turbulence, style_.backruns, dilution);
     passes_.granulate(density, paper_, wash.granulation * style_.roughness, style_.dispersion);
+    return {alpha, density};
+  }
+
+  void glaze(const Wash& wash, const Plane& density) {
     const Vec3f cool = absorbance(wash.cool), warm = absorbance(wash.warm);
     passes_.glaze(density, flow_.warmth, {cool * wash.strength, warm * wash.strength},
                   style_.warm_cool, absorbance_);
-    return alpha;
   }
 
   /// Colours bleed where the crown is wet.
@@ -141,21 +193,22 @@ class Painting {
   }
 
   /// Lets leaves break the edges of washes, and returns the strokes of single leaves, or none.
-  Plane look_at_leaves(std::span<const Stroke> leaves, const Plane& outline) {
-    if (leaves.empty()) return {};
+  Plane look_at_leaves(const Leaves& leaves, const Plane& outline) {
+    if (leaves.strokes.empty()) return {};
     const std::vector<float> outline_here = passes_.download(outline);
     const std::vector<float> dark_here = passes_.download(dark_);
     const Room room{buffers_.width, buffers_.height, outline_here, dark_here, buffers_.depth};
     const Brush brush{.size = style_.leaf_size,
                       .least = style_.leaf_width * unit_,
                       .most = 2 * style_.leaf_width * unit_,
-                      .tolerance = style_.melting};
+                      .tolerance = style_.melting,
+                      .mark = leaves.mark};
     Brush broad = brush;
     broad.size *= kBroad, broad.least *= kBroad, broad.most *= kBroad;
-    flow_.breaking = passes_.blur(passes_.upload(break_edges(leaves, room, broad)),
+    flow_.breaking = passes_.blur(passes_.upload(break_edges(leaves.strokes, room, broad)),
                                   std::max(kAntialias, kSoftness * unit_));
     if (style_.detail <= 0) return {};
-    return passes_.upload(paint_leaves(leaves, room, brush, style_.detail));
+    return passes_.upload(paint_leaves(leaves.strokes, room, brush, style_.detail));
   }
 
   Passes& passes_;
@@ -163,6 +216,7 @@ class Painting {
   const render::Buffers& buffers_;
   const Style& style_;
   float unit_;  ///< the picture's height, pixels
+  std::vector<Tone> tones_;
   FlowPlanes flow_;
   Plane dark_;
   std::array<Plane, 3> absorbance_;
@@ -202,8 +256,7 @@ std::size_t Painter::memory_of(int width, int height) {
   return kMostPlanes * Passes::plane_bytes(width, height);
 }
 
-Picture Painter::paint(const render::Buffers& buffers, std::span<const Stroke> leaves,
-                       const Style& style) {
+Picture Painter::paint(const render::Buffers& buffers, const Leaves& leaves, const Style& style) {
   Device::Engine& engine = impl_->device.engine();
   const int width = buffers.width, height = buffers.height;
   if (width < 1 || height < 1) throw Error(ErrorCode::usage, "a picture has at least one pixel");

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <memory>
-#include <span>
 
 #include "leafhull/device.h"
 #include "leafhull/picture.h"
@@ -21,10 +20,9 @@ class Painter {
   Painter(Painter&&) noexcept;
 
   /// What `buffers` see, in watercolour. Lengths of the style scale with the picture's height.
-  /// @param leaves the tree's leaves, in any order that is the same each time; may be empty
   /// @throws Error usage: no pixels, or more than the device's memory holds; device: a kernel that
   /// does not build, a failing driver.
-  Picture paint(const render::Buffers& buffers, std::span<const Stroke> leaves, const Style& style);
+  Picture paint(const render::Buffers& buffers, const Leaves& leaves, const Style& style);
 
   /// Bytes of the device's memory that it holds, and that a picture needs at most.
   std::size_t memory() const;

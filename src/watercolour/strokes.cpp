@@ -12,7 +12,6 @@ namespace leafhull::watercolour {
 namespace {
 
 constexpr int kMostOfSpray = 16;
-constexpr float kLeastWidth = 0.38f;  // of a stroke's length: leaves on edge are not hairs
 
 float smooth(float low, float high, float x) {
   const float t = std::clamp((x - low) / (high - low), 0.0f, 1.0f);
@@ -44,20 +43,64 @@ struct Dab {
 
 float norm(Vec2f v) { return std::hypot(v.x, v.y); }
 
-/// The dabs of a stroke: one, or for a card larger than the brush a spray over the card.
+/// Of each mark: how wide its dabs are, for their length (leaves on edge are not hairs), how much longer than the brush, how many there
+/// are, how far apart they point, and how far the leaves of a spray turn from its card; radians.
+struct Shape {
+  float least_width, most_width, length;
+  int count;
+  float fan, turn;
+};
+
+Shape shape_of(Mark mark) {
+  switch (mark) {
+    case Mark::tuft:
+      return {.least_width = 0.13f, .most_width = 0.13f, .length = 1.3f, .count = 3, .fan = 0.42f, .turn = 0.35f};
+    case Mark::blade:
+      return {.least_width = 0.2f, .most_width = 0.2f, .length = 2.2f, .count = 1, .fan = 0, .turn = 0.3f};
+    case Mark::dab:
+      break;
+  }
+  return {.least_width = 0.38f, .most_width = 1, .length = 1, .count = 1, .fan = 0, .turn = 1};
+}
+
+Vec2f turned(Vec2f v, float angle) {
+  const float c = std::cos(angle), s = std::sin(angle);
+  return {c * v.x - s * v.y, s * v.x + c * v.y};
+}
+
+/// Fans a mark out from its lower end.
+template <class Take>
+void each_of_mark(const Dab& middle, const Shape& shape, Take&& take) {
+  const Vec2f foot{middle.centre.x - middle.length * middle.along.x,
+                   middle.centre.y - middle.length * middle.along.y};
+  for (int i = 0; i < shape.count; ++i) {
+    Dab dab = middle;
+    dab.along = turned(middle.along, shape.fan * (static_cast<float>(i) -
+                                                  0.5f * static_cast<float>(shape.count - 1)));
+    dab.centre = {foot.x + dab.length * dab.along.x, foot.y + dab.length * dab.along.y};
+    take(dab);
+  }
+}
+
+/// The dabs of a stroke: those of one mark, or for a card larger than the brush of a spray over the
+/// card.
 template <class Take>
 void each_dab(const Stroke& stroke, const Brush& brush, Take&& take) {
   Vec2f major = stroke.half_major, minor = stroke.half_minor;
-  if (norm(minor) > norm(major)) std::swap(major, minor);
+  if (norm(minor) > norm(major) && brush.mark == Mark::dab) std::swap(major, minor);
   const float length = norm(major), width = norm(minor);
-  const bool has_length = length > 0 && length < HUGE_VALF;
+  const bool has_length = length > 0 && length < HUGE_VALF && width < HUGE_VALF;
   if (!has_length) return;
+  const Shape shape = shape_of(brush.mark);
   const Vec2f along{major.x / length, major.y / length};
-  const float half = std::clamp(brush.size * length, brush.least, brush.most);
-  const float half_width = std::clamp(brush.size * width, kLeastWidth * half, half);
-  const float cards = brush.size * length / half;
+  const float longest = std::max(length, width);
+  const float half = std::clamp(brush.size * longest, brush.least, brush.most);
+  const float cards = brush.size * longest / half;
+  Dab dab{stroke.centre, along, shape.length * half, 0, stroke.depth, stroke.leaf};
+  dab.width = shape.least_width * dab.length;
   if (cards <= 1) {
-    take(Dab{stroke.centre, along, half, half_width, stroke.depth, stroke.leaf});
+    dab.width = std::clamp(brush.size * width, dab.width, shape.most_width * dab.length);
+    each_of_mark(dab, shape, take);
     return;
   }
   const int count = static_cast<int>(std::min<float>(kMostOfSpray, std::ceil(cards * cards)));
@@ -66,16 +109,11 @@ void each_dab(const Stroke& stroke, const Brush& brush, Take&& take) {
     const float r = std::sqrt(unit(render::hash(leaf + 1)));
     const float angle = 2 * std::numbers::pi_v<float> * unit(render::hash(leaf + 2));
     const float s = r * std::cos(angle), t = r * std::sin(angle);
-    const float turn = 2 * unit(render::hash(leaf + 3)) - 1;
-    const Vec2f centre{stroke.centre.x + s * major.x + t * minor.x,
-                       stroke.centre.y + s * major.y + t * minor.y};
-    const float c = std::cos(turn), d = std::sin(turn);
-    take(Dab{centre,
-             {c * along.x - d * along.y, d * along.x + c * along.y},
-             half,
-             kLeastWidth * half,
-             stroke.depth,
-             leaf});
+    dab.leaf = leaf;
+    dab.centre = {stroke.centre.x + s * major.x + t * minor.x,
+                  stroke.centre.y + s * major.y + t * minor.y};
+    dab.along = turned(along, shape.turn * (2 * unit(render::hash(leaf + 3)) - 1));
+    each_of_mark(dab, shape, take);
   }
 }
 

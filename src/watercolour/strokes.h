@@ -9,11 +9,27 @@
 
 namespace leafhull::watercolour {
 
+/// What a single leaf is painted with.
+enum class Mark {
+  dab,   ///< two arcs that meet in its tips
+  tuft,  ///< needles from one point
+  blade  ///< a long frond
+};
+
 /// A leaf as the camera sees it; pixels from the picture's top left corner.
 struct Stroke {
   Vec2f centre, half_major, half_minor;
   float depth = 0;  ///< as render::Buffers::depth
   std::uint32_t leaf = 0;
+};
+
+/// A tree's leaves, for a picture.
+struct Leaves {
+  std::span<const Stroke> strokes;  ///< in any order that is the same each time; may be none
+  /// The colours that they have, linear, that of most first. Where there are several, the buffers'
+  /// colour says where which is; none: the green that styles are made for.
+  std::span<const Vec3f> tones;
+  Mark mark = Mark::dab;
 };
 
 /// Where strokes may go.
@@ -29,6 +45,7 @@ struct Brush {
   float least = 0;      ///< of the half-length, pixels
   float most = 0;       ///< of the half-length; a larger card is a spray of leaves
   float tolerance = 0;  ///< how far behind the surface a leaf is still painted
+  Mark mark = Mark::dab;
 };
 
 /// Leaves that break the edges of washes: each pixel has what its strongest leaf adds or takes,

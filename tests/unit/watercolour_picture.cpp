@@ -103,8 +103,8 @@ TEST(Watercolour, IsTheSameEachTime) {
   for (const std::string_view name : style_names()) {
     const Style style = shipped_style(name);
     Painter painter(device());
-    const Picture first = painter.paint(b, strokes, style);
-    EXPECT_EQ(first.rgb, painter.paint(b, strokes, style).rgb) << name;
+    const Picture first = painter.paint(b, {strokes}, style);
+    EXPECT_EQ(first.rgb, painter.paint(b, {strokes}, style).rgb) << name;
     EXPECT_EQ(first.rgb, paint(b, strokes, style).rgb) << name;
   }
 }
@@ -258,7 +258,7 @@ TEST(Watercolour, MemoryIsWhatItSays) {
   EXPECT_EQ(painter.memory(), 0u);
   Style style = shipped_style("wet");
   style.detail = 1;
-  painter.paint(tree(200, 200), leaves(200, 200), style);
+  painter.paint(tree(200, 200), {leaves(200, 200)}, style);
   EXPECT_GT(painter.memory(), 0u);
   EXPECT_LE(painter.memory(), Painter::memory_of(200, 200));
   EXPECT_GE(painter.memory(), Painter::memory_of(200, 200) * 3 / 4);
