@@ -137,6 +137,7 @@ void finish_tile(OwnedPolygons part, DensityFunction& density, const ForestLevel
   Polygons& polygons = part.polygons;
   surface.own_vertices = part.own;
   Mesh& mesh = surface.mesh;
+  mesh.colour = level.colour;
 
   std::vector<Vec3d> points(polygons.points.size());
   std::transform(polygons.points.begin(), polygons.points.end(), points.begin(),

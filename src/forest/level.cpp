@@ -180,6 +180,18 @@ double largest_piece(const ForestModel& model, const ForestLevel& level, Device&
   return largest * std::pow(voxel_size / level.voxel_size, 3);
 }
 
+std::optional<Vec3f> mean_colour(std::span<const LeafSet> models, std::span<const ModelUse> uses) {
+  Vec3d sum;
+  double area = 0;
+  for (std::size_t m = 0; m < models.size(); ++m) {
+    if (!models[m].colour) continue;
+    const double share = models[m].area * uses[m].area;
+    sum = sum + Vec3d(*models[m].colour) * share;
+    area += share;
+  }
+  return area > 0 ? std::optional(Vec3f(sum / area)) : std::nullopt;
+}
+
 }  // namespace
 
 Options resolved_shape(const ForestOptions& options) {
@@ -265,6 +277,7 @@ ForestLevel prepare_level(int number, std::span<const LeafSet> models,
   level.area_unit = area / points;
   level.sample_unit = area / samples;
   level.threshold = threshold_of(level, uses, finest);
+  level.colour = mean_colour(models, uses);
   // A voxel, and what R_max has grown by since level 0.
   level.error = level.voxel_size + radius_max * (1 - std::ldexp(1.0, -number));
   return level;

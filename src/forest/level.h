@@ -57,7 +57,8 @@ struct ForestLevel {
   /// The mean areas of leaf points and of what samples stand for, as their models have them; 0:
   /// vertices.
   double area_unit = 0, sample_unit = 0;
-  double error = 0;  ///< how far the surface may be from the finest, scene units
+  std::optional<Vec3f> colour;  ///< of the leaves of all trees, linear, mean; none: unknown
+  double error = 0;             ///< how far the surface may be from the finest, scene units
 };
 
 /// The options of the shapes, resolved. A canopy keeps its hollows: a tile cannot tell whether one

@@ -40,6 +40,7 @@ class GlbReader {
     Mesh mesh;
     const std::vector<double>& origin = model_.nodes.front().translation;
     if (origin.size() == 3) mesh.origin = {origin[0], origin[1], origin[2]};
+    mesh.colour = colour();
     mesh.positions = elements<Vec3f>(attribute(primitive, "POSITION"));
     mesh.normals = elements<Vec3f>(attribute(primitive, "NORMAL"));
     mesh.triangles = triangles(primitive.indices);
@@ -51,6 +52,14 @@ class GlbReader {
   }
 
  private:
+  std::optional<Vec3f> colour() const {
+    if (model_.materials.empty()) return std::nullopt;
+    const std::vector<double>& factor =
+        model_.materials.front().pbrMetallicRoughness.baseColorFactor;
+    if (factor.size() != 4) return std::nullopt;
+    return Vec3f(Vec3d(factor[0], factor[1], factor[2]));
+  }
+
   using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 
   [[noreturn]] void fail() const {

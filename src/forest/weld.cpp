@@ -29,6 +29,7 @@ class Weld {
   Vec3d middle_origin() const;
   Seam seam(std::size_t tile) const;
   Mesh mesh(std::size_t tile, Seam& seam) const;
+  std::optional<Vec3f> colour() const;
   template <class Write>
   void for_each_vertex(const Write& write) const;
   template <class Write>
@@ -88,6 +89,16 @@ Mesh Weld::mesh(std::size_t tile, Seam& seam) const {
   if (record.sha256.empty()) return std::exchange(seam.loose, {});
   const fs::path file = tiles_.folder().tile(tiles_[tile].id);
   return read_mesh(checked_content(file, record), file.string());
+}
+
+/// All tiles of a level have one.
+std::optional<Vec3f> Weld::colour() const {
+  for (std::size_t t = 0; t < first_vertex_.size(); ++t) {
+    if (placed_[t].mesh.sha256.empty()) continue;
+    Seam seam_of_tile = seam(t);
+    return mesh(t, seam_of_tile).colour;
+  }
+  return std::nullopt;
 }
 
 template <class Write>
@@ -153,7 +164,11 @@ void Weld::write_glb(std::ostream& stream) const {
     box.low = Vec3d(rounded(box_.low));
     box.high = Vec3d(rounded(box_.high));
   }
-  write_glb_head({.vertices = vertices_, .triangles = triangles_, .origin = origin, .box = box},
+  write_glb_head({.vertices = vertices_,
+                  .triangles = triangles_,
+                  .origin = origin,
+                  .box = box,
+                  .colour = colour()},
                  stream);
   for_each_vertex(
       [&](Vec3d position, Vec3f normal) { write_record(stream, rounded(position), normal); });

@@ -55,7 +55,7 @@ Json document(const MeshHead& mesh) {
                        {"mode", 4}};
   const Json material{{"name", kLeafMaterial},
                       {"pbrMetallicRoughness",
-                       {{"baseColorFactor", leaf_base_color(kLeafGreen)},
+                       {{"baseColorFactor", leaf_base_color(mesh.colour ? *mesh.colour : kLeafGreen)},
                         {"metallicFactor", 0.0},
                         {"roughnessFactor", 1.0}}}};
   const Json vertex_view{{"buffer", 0},

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <ostream>
 
 #include "leafhull/vec.h"
@@ -13,7 +14,8 @@ namespace leafhull {
 struct MeshHead {
   std::uint64_t vertices = 0, triangles = 0;
   Vec3d origin;
-  Box box;  ///< of the positions, from the origin
+  Box box;                      ///< of the positions, from the origin
+  std::optional<Vec3f> colour;  ///< of its material, linear; none: the green of leaves
 };
 
 /// Then come the vertices, position and normal, and the triangles, each with a byte 3 before its

@@ -182,6 +182,27 @@ class Levels(ForestTest):
         self.assertGreaterEqual(len(seen[1]), len(seen[2]))
 
 
+class Colours(ForestTest):
+    def colour(self, path):
+        document, _ = glb.unpack(path.read_bytes())
+        (material,) = document["materials"]
+        return material["pbrMetallicRoughness"]["baseColorFactor"]
+
+    def test_a_canopy_has_its_leaves_colour(self):
+        scene = self.scatter(30)
+        flags = (*COARSE, "--tile", "32", "--levels", "2")
+        single = self.out / "own" / "all.glb"
+        self.forest(scene, "own", *flags, "--single", single)
+        tiles = list((self.out / "own" / "tiles").rglob("*.glb"))
+        own = self.colour(single)
+        self.assertGreater(len(tiles), 2)
+        self.assertEqual([self.colour(tile) for tile in tiles], [own] * len(tiles))
+        self.forest(scene, "red", *flags, "--leaf-colour", "#ff0000")
+        for tile in (self.out / "red" / "tiles").rglob("*.glb"):
+            self.assertEqual(self.colour(tile), [1, 0, 0, 1])
+        self.assertNotEqual(own, [1, 0, 0, 1])
+
+
 class Reports(ForestTest):
     def test_rows_of_tiles(self):
         scene = self.scatter(60)

@@ -209,6 +209,75 @@ TEST_F(Trees, DirectAndMeshSeeTheSame) {
   EXPECT_GT(wood, 100u);
 }
 
+/// Leaves of the tree, by a rule.
+std::shared_ptr<TreeModel> painted(const TreeModel& tree, const LeafSet& leaves,
+                                   Vec3f (*colour)(Vec3f position)) {
+  auto model = std::make_shared<TreeModel>(tree);
+  for (std::size_t i = 0; i < model->instances.size(); ++i) {
+    if (!leaves.choice->instances[i]) continue;
+    Primitive& primitive = model->primitives[model->instances[i].primitive];
+    primitive.colors.clear();
+    for (const Vec3f p : primitive.positions) primitive.colors.push_back(colour(p));
+  }
+  return model;
+}
+
+TEST_F(Trees, HaveTheColoursOfTheirLeavesWhereTheyAre) {
+  const auto two = painted(*tree(), leaves(), [](Vec3f p) {
+    return p.x < 0 ? Vec3f{1, 0.1f, 0.1f} : Vec3f{0.2f, 1, 0.1f};
+  });
+  PictureOptions options;
+  options.width = options.height = 160;
+  options.camera = Viewpoint::front;
+  for (const Surfacing surfacing : {Surfacing::direct, Surfacing::mesh}) {
+    const Subject subject =
+        tree_subject(two, find_leaves(*two, {}), draft(), surfacing, device());
+    const render::Placement& placement = subject.parts().placement;
+    const auto seen = draw(subject, options, device()).buffers;
+    int left = 0, right = 0, wrong = 0;
+    const auto look = [&](render::Object object, Vec3f position, Vec3f color) {
+      const double x = double{position.x} / placement.scale + placement.origin.x;
+      const bool is_near_both = std::abs(x) < 2 * subject.report().radius_max_model;
+      if (object != render::Object::foliage || is_near_both) return;
+      ++(x < 0 ? left : right);
+      wrong += (color.x > color.y) != (x < 0);
+    };
+    for (std::size_t i = 0; i < seen->size(); ++i) {
+      look(seen->object[i], seen->position[i], seen->color[i]);
+    }
+    for (const render::EdgeSample& sample : seen->samples) {
+      look(sample.object, sample.position, sample.color);
+    }
+    EXPECT_GT(left, 500);
+    EXPECT_GT(right, 500);
+    EXPECT_EQ(wrong, 0);
+  }
+}
+
+TEST_F(Trees, OfOneColourHaveItAllOver) {
+  const Subject subject = tree_subject(tree(), leaves(), draft(), Surfacing::mesh, device());
+  EXPECT_FALSE(subject.parts().crown_colours);
+}
+
+TEST_F(Trees, WithNeedlesHaveStrokesAwayFromTheStem) {
+  auto pine = std::make_shared<TreeModel>(*tree());
+  pine->path = "pine.glb";
+  const Subject subject =
+      tree_subject(pine, find_leaves(*pine, {}), draft(), Surfacing::mesh, device());
+  const Subject::Parts& parts = subject.parts();
+  EXPECT_EQ(parts.leaf_kind, LeafKind::needle);
+  Vec3f middle;
+  for (const LeafCard& card : parts.leaves) middle = middle + card.centre;
+  middle = middle / static_cast<float>(parts.leaves.size());
+  double along = 0;
+  for (const LeafCard& card : parts.leaves) {
+    Vec3f away = card.centre - middle;
+    away.y = 0;
+    along += double{dot(normalized(card.half_major), normalized(away))};
+  }
+  EXPECT_GT(along / static_cast<double>(parts.leaves.size()), 0.3);
+}
+
 TEST_F(Trees, StandInOneFrameTogether) {
   const Frame frame = frame_of(leaves(), 5);
   PictureOptions options;

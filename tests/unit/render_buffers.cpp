@@ -310,6 +310,24 @@ TEST(RenderLeaf, RaysPassThroughTheHolesOfATexture) {
   EXPECT_LT(apart(buffers.color[at(-0.6f, 0.6f)], {0, 1, 0}), 0.01f);
 }
 
+TEST(RenderWood, HasTheColoursOfItsVertices) {
+  TreeModel tree;
+  tree.materials.push_back({.base_color = {1, 0.5f, 1, 1}});
+  Primitive square;
+  square.material = 0;
+  square.positions = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+  square.colors = {{1, 0, 0}, {0, 0, 1}, {0, 0, 1}, {1, 0, 0}};
+  square.triangles = {{0, 1, 2}, {0, 2, 3}};
+  tree.primitives.push_back(square);
+  tree.instances.push_back({});
+  const DeviceHandle embree = open_embree();
+  const Scene scene(embree.get(), {make_surface(embree.get(), tree, {}, Look::wood, Placement{})});
+  const auto seen = [&](float x) { return scene.closest({x, 0.3f, 1}, {0, 0, -1})->color; };
+  EXPECT_LT(apart(seen(-0.999f), {1, 0, 0}), 1e-2f);
+  EXPECT_LT(apart(seen(0.999f), {0, 0, 1}), 1e-2f);
+  EXPECT_LT(apart(seen(0.5f), {0.25f, 0, 0.75f}), 1e-3f);
+}
+
 TEST_F(RenderMesh, IsTheSameWithAnyNumberOfThreads) {
   const Camera camera = from_front(3);
   const MeshSurroundings sky(targets_);

@@ -6,7 +6,9 @@
 #include <cstdlib>
 #include <numbers>
 
+#include "colour/colour.h"
 #include "leafhull/error.h"
+#include "render/light.h"
 #include "render/sampling.h"
 #include "watercolour/foot.h"
 #include "watercolour/paint.h"
@@ -71,8 +73,9 @@ std::vector<Stroke> leaves(int width, int height, float turn = 0) {
   return strokes;
 }
 
-Picture paint(const render::Buffers& buffers, std::span<const Stroke> strokes, const Style& style) {
-  return Painter(device()).paint(buffers, strokes, style);
+Picture paint(const render::Buffers& buffers, std::span<const Stroke> strokes, const Style& style,
+              std::span<const Vec3f> tones = {}) {
+  return Painter(device()).paint(buffers, {strokes, tones}, style);
 }
 
 /// Mean absolute difference of two pictures, of 255.
@@ -253,12 +256,40 @@ TEST(Watercolour, ATreeStandsWhereItsWoodMeetsTheGround) {
   EXPECT_FALSE(find_foot(b));
 }
 
+TEST(Watercolour, TonesKeepTheirPlaces) {
+  constexpr int kSize = 200;
+  const Vec3f green = kLeafGreen, red{0.5f, 0.04f, 0.02f};
+  render::Buffers b = tree(kSize, kSize);
+  for (std::size_t i = 0; i < b.size(); ++i) {
+    b.color[i] = render::foliage_colour(i % kSize < kSize / 2 ? green : red);
+  }
+  const std::vector<Vec3f> tones{green, red};
+  const Style style = shipped_style("classic");
+  const Picture both = paint(b, {}, style, tones);
+  const Picture all_green = paint(b, {}, style, std::span(tones).first(1));
+  const Picture all_red = paint(b, {}, style, std::span(tones).last(1));
+  const auto differs = [&](const Picture& other, int from, int to) {
+    double sum = 0;
+    for (int y = 0; y < kSize; ++y) {
+      for (int x = 3 * from; x < 3 * to; ++x) {
+        const std::size_t i = 3 * kSize * static_cast<std::size_t>(y) + x;
+        sum += std::abs(both.rgb[i] - other.rgb[i]);
+      }
+    }
+    return sum;
+  };
+  constexpr int kLeft = 2 * kSize / 5, kRight = 3 * kSize / 5;
+  EXPECT_LT(differs(all_green, 0, kLeft), 0.03 * differs(all_red, 0, kLeft));
+  EXPECT_LT(differs(all_red, kRight, kSize), 0.03 * differs(all_green, kRight, kSize));
+}
+
 TEST(Watercolour, MemoryIsWhatItSays) {
   Painter painter(device());
   EXPECT_EQ(painter.memory(), 0u);
   Style style = shipped_style("wet");
   style.detail = 1;
-  painter.paint(tree(200, 200), {leaves(200, 200)}, style);
+  const std::vector<Vec3f> tones{kLeafGreen, {0.5f, 0, 0}, {0.5f, 0.4f, 0}, {0, 0, 0.5f}};
+  painter.paint(tree(200, 200), {leaves(200, 200), tones}, style);
   EXPECT_GT(painter.memory(), 0u);
   EXPECT_LE(painter.memory(), Painter::memory_of(200, 200));
   EXPECT_GE(painter.memory(), Painter::memory_of(200, 200) * 3 / 4);

@@ -78,6 +78,44 @@ TEST(Strokes, StrokesKeepToTheBrush) {
   EXPECT_EQ(area({0, 0}, {0, 0}, brush), 0);
 }
 
+TEST(Strokes, NeedlesFanOutFromOnePoint) {
+  const Scene scene;
+  Brush brush = kBrush;
+  brush.mark = Mark::tuft;
+  const std::vector<float> v = break_edges({{leaf_at(32, 32)}}, scene.room(), brush);
+  const auto runs = [&](int x) {
+    int count = 0;
+    for (int y = 1; y < kSize; ++y) count += v[y * kSize + x] != 0 && v[(y - 1) * kSize + x] == 0;
+    return count;
+  };
+  EXPECT_EQ(runs(24), 1) << "their common foot is at the left";
+  EXPECT_EQ(runs(37), 3);
+  EXPECT_LT(sum(v) / v[32 * kSize + 32], 3 * 2 * 2 / 3.0 * 21 * 2) << "and they are thin";
+}
+
+TEST(Strokes, AFrondIsLongAndSlender) {
+  const Scene scene;
+  Brush brush = kBrush;
+  brush.mark = Mark::blade;
+  const std::vector<float> v = break_edges({{leaf_at(32, 32)}}, scene.room(), brush);
+  const auto at = [&](int x, int y) { return std::abs(v[y * kSize + x]); };
+  EXPECT_GT(at(32, 32), 0);
+  EXPECT_GT(at(46, 32), 0) << "twice as long as its card";
+  EXPECT_EQ(at(32, 38), 0);
+  // A large card is a spray of them, about along the card.
+  const Stroke card{{32, 32}, {20, 0}, {0, 20}, 2, 3};
+  brush.most = 4;
+  const std::vector<float> spray = break_edges({{card}}, scene.room(), brush);
+  double along = 0, across = 0;
+  for (int y = 1; y < kSize; ++y) {
+    for (int x = 1; x < kSize; ++x) {
+      along += std::abs(spray[y * kSize + x] - spray[y * kSize + x - 1]);
+      across += std::abs(spray[y * kSize + x] - spray[(y - 1) * kSize + x]);
+    }
+  }
+  EXPECT_GT(across, 1.5 * along);
+}
+
 TEST(Strokes, ALeafAtTheEyeIsASprayOfBoundedLength) {
   const Scene scene;
   const auto area = [&](float half, float size) {
