@@ -10,6 +10,7 @@ namespace leafhull::render {
 namespace {
 
 constexpr double kLitLightness = 0.66;  // in Oklab
+constexpr double kLitChroma = 0.8;      // of the leaves': the sun adds to it
 
 }  // namespace
 
@@ -29,7 +30,7 @@ Vec3f develop(Vec3f radiance) {
 
 Vec3f foliage_colour(const std::optional<Vec3f>& leaves) {
   const Vec3d lab = oklab_of(leaves ? *leaves : kLeafGreen);
-  return shown_oklab({(lab.x + kLitLightness) / 2, lab.y, lab.z});
+  return shown_oklab({(lab.x + kLitLightness) / 2, kLitChroma * lab.y, kLitChroma * lab.z});
 }
 
 float linear(std::uint8_t srgb) { return linear_of_srgb(srgb); }

@@ -24,7 +24,7 @@ constexpr float kSkyReach = 0.35f;    // how far leaves shade one another from t
 Vec3f sun_direction(const Camera& camera);
 
 /// What an abstract shape of leaves of this colour, or of one that nobody tells, is drawn in: their
-/// hue and chroma, and half of the way from their lightness to that of a lit mass.
+/// hue, a little less chroma, and half of the way from their lightness to that of a lit mass.
 Vec3f foliage_colour(const std::optional<Vec3f>& leaves);
 
 /// What the sky, or below the horizon the paper, sends from a unit direction.
