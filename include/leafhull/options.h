@@ -29,6 +29,10 @@ enum class Preset { paper_32, paper_64, paper_128, draft, standard, fine, ultra,
 /// Every choice of an extraction. What is empty is set by the style or follows from another option:
 /// `resolve` fills it in. Ranges, units and defaults stand in `option_table()`.
 struct Options {
+  // Input
+  std::optional<Up> up;        ///< empty: the file's own word, else y
+  bool allow_outside = false;  ///< textures may lie outside of the tree's folder
+
   // Leaves
   std::vector<std::string> leaves, not_leaves;
   std::optional<LeafColour> leaves_colour;
@@ -66,12 +70,14 @@ struct Options {
   Mesher mesher = Mesher::vdb;
   double adaptivity = 0;  ///< of Mesher::vdb alone
 
+  ReadOptions read_options() const { return {up, allow_outside}; }
   LeafOptions leaf_options() const {
     return {leaves, not_leaves, leaves_colour, leaf_colour, ellipse, leaf_scale};
   }
 };
 
 /// The names of an enumeration's values, in order.
+std::span<const std::string_view> names(Up);
 std::span<const std::string_view> names(Style);
 std::span<const std::string_view> names(Method);
 std::span<const std::string_view> names(PointSource);
@@ -106,7 +112,7 @@ struct OptionRow {
   using Member =
       std::variant<bool Options::*, int Options::*, double Options::*,
                    std::optional<int> Options::*, std::optional<double> Options::*,
-                   Style Options::*, std::optional<Method> Options::*, RadiusUnit Options::*,
+                   std::optional<Up> Options::*, Style Options::*, std::optional<Method> Options::*, RadiusUnit Options::*,
                    std::optional<PointSource> Options::*, Spread Options::*,
                    DensitySource Options::*, std::optional<Hollows> Options::*, Mesher Options::*,
                    std::optional<Preset> Options::*, std::vector<std::string> Options::*,

@@ -20,6 +20,7 @@ namespace leafhull {
 struct SceneModel {
   std::string name;            ///< as messages and outputs call it; no two are the same
   std::filesystem::path file;  ///< of a scatter file: a tree
+  ReadOptions reading;         ///< of that
   std::string mesh;            ///< of a glTF scene: its mesh
   /// Of a glTF scene: the meshes of its models, which share them and their images. Else empty.
   std::shared_ptr<const TreeModel> meshes;
@@ -53,7 +54,8 @@ struct Scene {
 /// model and every node that holds it a tree, EXT_mesh_gpu_instancing included.
 /// @throws Error input: the file, the line and what is wrong, such as a tree file that is not there
 ///         or a value that is no number; a file without trees.
-Scene read_scene(const std::filesystem::path& path, const LeafOptions& leaves);
+Scene read_scene(const std::filesystem::path& path, const LeafOptions& leaves,
+                 const ReadOptions& reading = {});
 
 /// The leaves of one of its models. @throws Error as read_tree and find_leaves do.
 LeafSet read_model(const SceneModel& model, const LeafOptions& leaves);
@@ -67,6 +69,7 @@ struct HeightMap {
 struct ScatterOptions {
   std::vector<std::filesystem::path> trees;  ///< equally often; one named twice twice as often
   LeafOptions leaves;                        ///< of the trees
+  ReadOptions reading;                       ///< of their files
   std::size_t count = 0;                     ///< 1 to 1,000,000
   std::uint64_t seed = 1;
   /// Sides of the rectangle along x and z, centred on the origin; empty: as wide as `spacing` asks.

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -74,9 +75,17 @@ struct TreeModel {
   std::vector<std::string> warnings;  ///< what was passed over, one line each
 };
 
+/// The axis of a file that points up in the world.
+enum class Up { y, z };
+
+struct ReadOptions {
+  std::optional<Up> up;        ///< empty: the file's own word, else y
+  bool allow_outside = false;  ///< textures and buffers may lie outside of the file's folder
+};
+
 /// Reads glTF 2.0 (.glb, .gltf) or Wavefront OBJ; the default scene's nodes become instances,
 /// EXT_mesh_gpu_instancing included. SPEC: 1.
 /// @throws Error input: the file, its name, and what is wrong at which place in it.
-TreeModel read_tree(const std::filesystem::path& path);
+TreeModel read_tree(const std::filesystem::path& path, const ReadOptions& options = {});
 
 }  // namespace leafhull

@@ -248,7 +248,7 @@ void make_forest(const Arguments& arguments, Ranks& ranks) {
   const Options shape = resolve(arguments.options);
   std::future<Device> opening = open_device(device_of(arguments, ranks), shape.falloff);
   console.progress("read", 0);
-  const Scene scene = read_scene(arguments.tree, shape.leaf_options());
+  const Scene scene = read_scene(arguments.tree, shape.leaf_options(), shape.read_options());
   for (const std::string& warning : scene.warnings) console.warn(warning);
   check_models(arguments, scene);
   Device device = opening.get();

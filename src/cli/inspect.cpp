@@ -59,6 +59,8 @@ std::vector<std::string> suggestions(const Arguments& arguments, const LeafChoic
     return lines;
   }
   std::string leaves;
+  if (arguments.options.up) leaves += " --up " + std::string(name(*arguments.options.up));
+  if (arguments.options.allow_outside) leaves += " --allow-outside";
   for (const std::string& glob : arguments.options.leaves) leaves += " --leaves " + quoted(glob);
   for (const std::string& glob : arguments.options.not_leaves) {
     leaves += " --not-leaves " + quoted(glob);
@@ -217,7 +219,7 @@ void run_inspect(const Arguments& arguments) {
   Console console(arguments.quiet, arguments.verbose);
   const LeafOptions options = resolve(arguments.options).leaf_options();
   console.progress("read", 0);
-  const TreeModel tree = read_tree(arguments.tree);
+  const TreeModel tree = read_tree(arguments.tree, arguments.options.read_options());
   for (const std::string& warning : tree.warnings) console.warn(warning);
   console.progress("leaves", 0);
   const LeafChoice choice = choose_leaves(tree, options);
@@ -256,7 +258,7 @@ Verb inspect_verb() {
               "  leafhull inspect birch.glb\n"
               "  leafhull inspect birch.glb --leaves '*twig*' --json\n",
           .takes_tree = true,
-          .flags = all_of({option_flags("Leaves"), json_flags(), console_flags(), help_flags()}),
+          .flags = all_of({option_flags("Input"), option_flags("Leaves"), json_flags(), console_flags(), help_flags()}),
           .run = run_inspect};
 }
 

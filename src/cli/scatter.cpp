@@ -119,7 +119,7 @@ std::vector<Flag> scatter_flags() {
 
 /// --leaves alone: the others of its group do not move a tree.
 std::vector<Flag> leaves_flag() {
-  std::vector<Flag> flags = option_flags("Leaves");
+  std::vector<Flag> flags = all_of({option_flags("Input"), option_flags("Leaves")});
   std::erase_if(flags, [](const Flag& flag) { return flag.spelling != "--leaves"; });
   return flags;
 }
@@ -149,6 +149,7 @@ void run_scatter(const Arguments& arguments) {
   ScatterOptions options = arguments.scatter;
   options.trees = arguments.trees;
   options.leaves = resolve(arguments.options).leaf_options();
+  options.reading = arguments.options.read_options();
   catch_signals();
   console.progress("scatter", 0);
   write_scatter(options, arguments.scatter_file);

@@ -107,11 +107,11 @@ std::string machine(int threads) {
   return name + ", " + std::to_string(used) + (used == 1 ? " thread" : " threads");
 }
 
-LeafSet leaves_of(const fs::path& file, const LeafOptions& options, Console& console) {
+LeafSet leaves_of(const fs::path& file, const Options& options, Console& console) {
   console.progress("read " + file.filename().string(), 0);
-  const TreeModel tree = read_tree(file);
+  const TreeModel tree = read_tree(file, options.read_options());
   for (const std::string& warning : tree.warnings) console.warn(warning);
-  LeafSet leaves = find_leaves(tree, options);
+  LeafSet leaves = find_leaves(tree, options.leaf_options());
   for (const std::string& warning : leaves.warnings) console.warn(warning);
   return leaves;
 }
@@ -142,7 +142,7 @@ void print_verdicts(const TreeStudy& tree) {
 void run_study(const Arguments& arguments) {
   Console console(arguments.quiet, arguments.verbose);
   check_study_arguments(arguments);
-  const LeafOptions options = resolve(arguments.options).leaf_options();
+  const Options options = resolve(arguments.options);
   catch_signals(arguments.quiet ? "" : "leafhull: stopped; a study is written at its end\n");
   const auto began = std::chrono::steady_clock::now();
   std::future<Device> opening = open_device(arguments.device, readings().front().falloff);
@@ -191,7 +191,7 @@ Verb study_verb() {
           "  leafhull study birch.glb ash.glb --leaves '*leaf*' -o study/\n",
       .takes_trees = true,
       .operand = "TREE...",
-      .flags = all_of({option_flags("Leaves"), study_output_flags(), device_flags(),
+      .flags = all_of({option_flags("Input"), option_flags("Leaves"), study_output_flags(), device_flags(),
                        console_flags(), help_flags()}),
       .run = run_study};
 }

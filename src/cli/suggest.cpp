@@ -97,7 +97,7 @@ void run_suggest(const Arguments& arguments) {
   std::future<Device> opening = open_device(arguments.device, options.falloff);
   console.progress("read", 0);
   const LeafSet leaves = [&] {
-    const TreeModel tree = read_tree(arguments.tree);
+    const TreeModel tree = read_tree(arguments.tree, arguments.options.read_options());
     for (const std::string& warning : tree.warnings) console.warn(warning);
     return find_leaves(tree, leaf_options);
   }();
@@ -130,7 +130,7 @@ Verb suggest_verb() {
               "  leafhull suggest birch.glb\n"
               "  leafhull suggest birch.glb --preset draft -o strip.png --json\n",
           .takes_tree = true,
-          .flags = all_of({option_flags("Leaves"), option_flags("Resolution"), suggest_flags(),
+          .flags = all_of({option_flags("Input"), option_flags("Leaves"), option_flags("Resolution"), suggest_flags(),
                            device_flags(), json_flags(), console_flags(), help_flags()}),
           .run = run_suggest};
 }

@@ -102,7 +102,7 @@ void run_sweep_verb(const Arguments& arguments) {
   std::future<Device> opening = open_device(arguments.device, first_falloff(plan));
   console.progress("read", 0);
   const LeafSet leaves = [&] {
-    const TreeModel tree = read_tree(arguments.tree);
+    const TreeModel tree = read_tree(arguments.tree, arguments.options.read_options());
     for (const std::string& warning : tree.warnings) console.warn(warning);
     return find_leaves(tree, plan.combinations.front().leaf_options());
   }();

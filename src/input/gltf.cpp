@@ -9,7 +9,7 @@
 namespace leafhull {
 
 TreeModel read_gltf(ByteSpan bytes, const std::string& name,
-                    const std::optional<std::filesystem::path>& folder) {
+                    const Companions& companions) {
   std::vector<Instance> instances;
   const auto place = [&](const GltfMeshes& meshes, const PlacedMesh& placed) {
     if (!is_finite(placed.to_world)) {
@@ -19,7 +19,7 @@ TreeModel read_gltf(ByteSpan bytes, const std::string& name,
       instances.push_back({primitive, placed.node_name, placed.to_world, placed.node});
     }
   };
-  TreeModel tree = read_gltf_meshes(bytes, name, folder, place).tree;
+  TreeModel tree = read_gltf_meshes(bytes, name, companions, place).tree;
   tree.instances = std::move(instances);
   if (tree.instances.empty()) {
     input_error(name, "", "holds no triangles in its default scene",

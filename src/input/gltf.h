@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <filesystem>
-#include <optional>
 #include <string>
 
+#include "input/companions.h"
 #include "input/file_bytes.h"
 #include "leafhull/tree.h"
 
@@ -12,9 +11,9 @@ namespace leafhull {
 
 /// Reads glTF 2.0 from memory, text or binary.
 /// @param name   as messages call the file.
-/// @param folder where external buffers and images lie; empty: none are read.
+/// @param companions external buffers and images.
 /// @throws Error input.
 TreeModel read_gltf(ByteSpan bytes, const std::string& name,
-                    const std::optional<std::filesystem::path>& folder);
+                    const Companions& companions);
 
 }  // namespace leafhull

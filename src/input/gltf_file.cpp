@@ -2,6 +2,7 @@
 #include "input/gltf_file.h"
 
 #include <algorithm>
+#include <cctype>
 #include <nlohmann/json.hpp>
 
 #include "input/gltf_document.h"
@@ -17,6 +18,7 @@ constexpr std::uint32_t kBinaryChunk = 0x004E4942;
 struct Chunks {
   std::string_view json;
   ByteSpan binary;
+  std::string note{};
 };
 
 std::uint32_t little_endian(ByteSpan bytes, std::size_t at) {
@@ -35,7 +37,7 @@ Chunks split_glb(ByteSpan bytes, const std::string& file) {
                 "Convert the file to glTF 2.0.");
   }
   const std::uint32_t length = little_endian(bytes, 8);
-  if (length != bytes.size()) {
+  if (length > bytes.size()) {
     input_error(
         file, "GLB header",
         "says " + std::to_string(length) + " bytes, the file has " + std::to_string(bytes.size()),
@@ -43,6 +45,11 @@ Chunks split_glb(ByteSpan bytes, const std::string& file) {
   }
 
   Chunks chunks;
+  if (length < bytes.size()) {
+    chunks.note = "the " + std::to_string(bytes.size() - length) +
+                  " bytes after the end of the GLB are passed over";
+    bytes = bytes.first(length);
+  }
   for (std::size_t at = 12, index = 0; at < bytes.size(); ++index) {
     const std::string place = "GLB chunk " + std::to_string(index);
     if (bytes.size() - at < 8) input_error(file, place, "is cut off", kCopyAgain);
@@ -127,16 +134,43 @@ void parse_model(GltfFile& file, json document) {
   if (!good || !error.empty()) file.fail("", printable(error, 300));
 }
 
+/// The bytes of a data URI of whatever media type.
+std::optional<Bytes> decode_data(const std::string& uri) {
+  const std::size_t comma = uri.find(',');
+  if (comma == std::string::npos) return std::nullopt;
+  std::string coding = uri.substr(0, comma);
+  std::ranges::transform(coding, coding.begin(), [](unsigned char c) { return std::tolower(c); });
+  std::string data = percent_decoded(std::string_view(uri).substr(comma + 1));
+  if (!coding.ends_with(";base64")) return Bytes(data.begin(), data.end());
+  std::erase_if(data, [](unsigned char c) { return std::isspace(c); });
+  Bytes bytes;
+  std::string media_type;  // tinygltf knows some alone
+  const std::string plain = "data:application/octet-stream;base64," + data;
+  if (!tinygltf::DecodeDataURI(&bytes, media_type, plain, 0, false)) return std::nullopt;
+  return bytes;
+}
+
+/// A query or a fragment belongs to no file, unless one is called so.
+Companions::Found find_uri(const Companions& companions, const std::string& uri) {
+  const std::size_t end = uri.find_first_of("?#");
+  try {
+    return companions.find(percent_decoded(uri));
+  } catch (const FileError&) {
+    if (end == std::string::npos) throw;
+  }
+  return companions.find(percent_decoded(uri.substr(0, end)));
+}
+
 }  // namespace
 
-GltfFile open_gltf(ByteSpan bytes, const std::string& name,
-                   const std::optional<std::filesystem::path>& folder) {
+GltfFile open_gltf(ByteSpan bytes, const std::string& name, const Companions& companions) {
   const Chunks chunks =
       text_of(bytes).starts_with("glTF") ? split_glb(bytes, name) : Chunks{text_of(bytes), {}};
   json document = parse_document(chunks.json, name);
   GltfFile file;
   file.name = name;
-  file.folder = folder;
+  file.companions = companions;
+  if (!chunks.note.empty()) file.notes.push_back(chunks.note);
   if (document.contains("buffers")) load_buffers(file, document["buffers"], chunks.binary);
   if (document.contains("cameras")) list_cameras(file, document["cameras"]);
   const json images = document.contains("images") ? std::move(document["images"]) : json::array();
@@ -145,25 +179,27 @@ GltfFile open_gltf(ByteSpan bytes, const std::string& name,
   return file;
 }
 
-Bytes load_uri(const GltfFile& file, const std::string& uri, const std::string& place) {
+Bytes load_uri(GltfFile& file, const std::string& uri, const std::string& place) {
   if (uri.starts_with("data:")) {
-    Bytes bytes;
-    std::string mime_type;
-    if (!tinygltf::DecodeDataURI(&bytes, mime_type, uri, 0, false)) {
+    std::optional<Bytes> bytes = decode_data(uri);
+    if (!bytes) {
       file.fail(place, "the data URI " + in_quotes(uri.substr(0, 40)) + " cannot be decoded");
     }
-    return bytes;
+    return std::move(*bytes);
   }
-  if (!file.folder || uri.find("://") != std::string::npos) {
+  const bool is_remote = uri.find("://") != std::string::npos && !uri.starts_with("file:");
+  if (!file.companions.any() || is_remote) {
     file.fail(place, in_quotes(uri) + " is outside the file and not looked for",
               "Put everything into one .glb file.");
   }
-  const std::filesystem::path path = *file.folder / percent_decoded(uri);
   try {
-    return read_file(path);
+    const Companions::Found found = find_uri(file.companions, uri);
+    Bytes bytes = read_file(found.path);
+    if (!found.note.empty()) file.notes.push_back(place + ": " + found.note);
+    return bytes;
   } catch (const FileError& error) {
-    file.fail(place, in_quotes(path.string()) + " cannot be read: " + error.what(),
-              "Put the file there, or export the tree as one .glb file.");
+    file.fail(place, in_quotes(percent_decoded(uri)) + " cannot be read: " + error.what(),
+              "Put the file beside the tree's, or export the tree as one .glb file.");
   }
 }
 

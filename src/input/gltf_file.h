@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "input/companions.h"
 #include "input/file_bytes.h"
 #include "input/input_error.h"
 
@@ -24,9 +25,10 @@ struct GltfCamera {
 /// An opened glTF file: its document as tinygltf's types, and its bytes. The document is well typed
 /// and its whole numbers fit an int; where they point to is checked by those who follow them.
 struct GltfFile {
-  std::string name;                             ///< as messages call it
-  std::optional<std::filesystem::path> folder;  ///< of external files; empty: none are read
-  tinygltf::Model model;                        ///< its buffers and images hold no data
+  std::string name;                 ///< as messages call it
+  Companions companions;            ///< external buffers and images
+  std::vector<std::string> notes;   ///< what was guessed and what passed over
+  tinygltf::Model model;            ///< its buffers and images hold no data
   std::vector<GltfCamera> cameras;
   std::vector<ByteSpan> buffers;     ///< as many as the document has; empty for a meshopt fallback
   std::vector<Bytes> owned_buffers;  ///< what `buffers` refers to outside the file itself
@@ -40,12 +42,11 @@ struct GltfFile {
 
 /// Opens the bytes of a .glb or .gltf file; they must outlive the result.
 /// @throws Error input.
-GltfFile open_gltf(ByteSpan bytes, const std::string& name,
-                   const std::optional<std::filesystem::path>& folder);
+GltfFile open_gltf(ByteSpan bytes, const std::string& name, const Companions& companions);
 
 /// The bytes that a URI of the document stands for.
 /// @throws Error input at `place`.
-Bytes load_uri(const GltfFile& file, const std::string& uri, const std::string& place);
+Bytes load_uri(GltfFile& file, const std::string& uri, const std::string& place);
 
 /// "accessors[3]"
 inline std::string place_of(std::string_view list, std::size_t index) {

@@ -11,9 +11,9 @@
 namespace leafhull {
 
 GltfMeshes read_gltf_meshes(ByteSpan bytes, const std::string& name,
-                            const std::optional<std::filesystem::path>& folder,
+                            const Companions& companions,
                             const MeshVisitor& visit, const MeshVisitor& survey) {
-  GltfFile file = open_gltf(bytes, name, folder);
+  GltfFile file = open_gltf(bytes, name, companions);
   GltfMeshes meshes;
   TreeModel& tree = meshes.tree;
   const std::set<int> placed = placed_meshes(file);
@@ -30,6 +30,7 @@ GltfMeshes read_gltf_meshes(ByteSpan bytes, const std::string& name,
       tree.primitives.push_back(std::move(*primitive));
     }
   }
+  tree.warnings.insert(tree.warnings.begin(), file.notes.begin(), file.notes.end());
   for (const MeshVisitor* visitor : {&survey, &visit}) {
     if (!*visitor) continue;
     place_meshes(file, [&](const PlacedMesh& placed_mesh) {

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "input/companions.h"
 #include "input/file_bytes.h"
 #include "leafhull/tree.h"
 
@@ -42,7 +43,7 @@ using MeshVisitor = std::function<void(const GltfMeshes& meshes, const PlacedMes
 /// @param survey where it is given, is shown all of them first.
 /// @throws Error input.
 GltfMeshes read_gltf_meshes(ByteSpan bytes, const std::string& name,
-                            const std::optional<std::filesystem::path>& folder,
+                            const Companions& companions,
                             const MeshVisitor& visit, const MeshVisitor& survey = {});
 
 }  // namespace leafhull

@@ -227,14 +227,12 @@ class PrimitiveMaker {
 
 }  // namespace
 
-TreeModel read_obj(ByteSpan bytes, const std::filesystem::path& path) {
-  const std::string file = path.string();
+TreeModel read_obj(ByteSpan bytes, const std::string& file, const Companions& companions) {
   const std::string_view text = text_of(bytes);
 
   TreeModel tree;
   const ObjVertices vertices = read_obj_vertices(text, file, tree.warnings);
-  const std::filesystem::path folder = path.parent_path();
-  ObjMaterials materials = read_material_libraries(text, folder, tree.warnings);
+  ObjMaterials materials = read_material_libraries(text, companions, tree.warnings);
   Collector obj(file, materials);
   obj.run(text);
   if (obj.parts.empty()) {
@@ -258,7 +256,7 @@ TreeModel read_obj(ByteSpan bytes, const std::filesystem::path& path) {
     tree.primitives.push_back(maker.make(part, origin));
   }
   tree.nodes = std::move(obj.nodes);
-  add_materials(materials, used, folder, tree);
+  add_materials(materials, used, companions, tree);
   return tree;
 }
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <filesystem>
+#include <string>
 
+#include "input/companions.h"
 #include "input/file_bytes.h"
 #include "leafhull/tree.h"
 
@@ -10,8 +11,8 @@ namespace leafhull {
 
 /// Reads Wavefront OBJ with its material libraries. Every object or group is a mesh and a node of
 /// its name, with one primitive per material; polygons become triangles.
-/// @param path as messages call the file; material libraries and textures lie beside it.
+/// @param file as messages call it; @param companions material libraries and textures.
 /// @throws Error input.
-TreeModel read_obj(ByteSpan bytes, const std::filesystem::path& path);
+TreeModel read_obj(ByteSpan bytes, const std::string& file, const Companions& companions);
 
 }  // namespace leafhull

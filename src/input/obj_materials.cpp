@@ -33,18 +33,22 @@ std::vector<std::string> arguments(std::string_view obj, std::string_view keywor
   return found;
 }
 
-std::filesystem::path local_path(const std::filesystem::path& folder, std::string name) {
-  std::ranges::replace(name, '\\', '/');
-  return folder / name;
+/// @throws FileError.
+Bytes read_companion(const Companions& companions, const std::string& name,
+                     std::vector<std::string>& warnings) {
+  const Companions::Found found = companions.find(name);
+  Bytes bytes = read_file(found.path);
+  if (!found.note.empty()) warnings.push_back(found.note);
+  return bytes;
 }
 
 /// An image beside the file; empty, with a warning, where it cannot be read.
-Image read_image(const std::string& name, const std::filesystem::path& folder,
+Image read_image(const std::string& name, const Companions& companions,
                  std::vector<std::string>& warnings) {
   std::string reason;
   Image image;
   try {
-    image = decode_image(read_file(local_path(folder, name)), name, reason);
+    image = decode_image(read_companion(companions, name, warnings), name, reason);
   } catch (const FileError& error) {
     reason = error.what();
   }
@@ -80,12 +84,12 @@ Image with_alpha(const Image& color, Image mask) {
 
 }  // namespace
 
-ObjMaterials read_material_libraries(std::string_view obj, const std::filesystem::path& folder,
+ObjMaterials read_material_libraries(std::string_view obj, const Companions& companions,
                                      std::vector<std::string>& warnings) {
   ObjMaterials result;
   for (const std::string& name : arguments(obj, "mtllib")) {
     try {
-      const Bytes bytes = read_file(local_path(folder, name));
+      const Bytes bytes = read_companion(companions, name, warnings);
       std::istringstream stream{std::string(text_of(bytes))};
       std::string warning, error;
       tinyobj_double::LoadMtl(&result.by_name, &result.materials, &stream, &warning, &error);
@@ -112,7 +116,7 @@ int ObjMaterials::find_or_add(const std::string& name) {
 }
 
 void add_materials(const ObjMaterials& from, const std::vector<bool>& used,
-                   const std::filesystem::path& folder, TreeModel& tree) {
+                   const Companions& companions, TreeModel& tree) {
   std::map<std::pair<std::string, std::string>, int> images;  // by map_Kd and map_d
   for (std::size_t i = 0; i < from.materials.size(); ++i) {
     const tinyobj_double::material_t& source = from.materials[i];
@@ -134,9 +138,9 @@ void add_materials(const ObjMaterials& from, const std::vector<bool>& used,
     material.base_color_image = entry->second;
     if (!is_new) continue;
     Image image;
-    if (!color.empty()) image = read_image(color, folder, tree.warnings);
+    if (!color.empty()) image = read_image(color, companions, tree.warnings);
     if (!alpha.empty() && alpha != color) {
-      Image mask = read_image(alpha, folder, tree.warnings);
+      Image mask = read_image(alpha, companions, tree.warnings);
       if (!mask.empty()) image = with_alpha(image, std::move(mask));
     }
     image.name = color.empty() ? alpha : color;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <filesystem>
 #include <map>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "input/companions.h"
 #include "input/tinyobj_double.h"
 #include "leafhull/tree.h"
 
@@ -22,12 +22,12 @@ struct ObjMaterials {
 };
 
 /// @param warnings gets a line for each library that cannot be read.
-ObjMaterials read_material_libraries(std::string_view obj, const std::filesystem::path& folder,
+ObjMaterials read_material_libraries(std::string_view obj, const Companions& companions,
                                      std::vector<std::string>& warnings);
 
 /// Adds the materials that are `used` to a tree with their images; the others without.
 void add_materials(const ObjMaterials& from, const std::vector<bool>& used,
-                   const std::filesystem::path& folder, TreeModel& tree);
+                   const Companions& companions, TreeModel& tree);
 
 /// The texture coordinates of a material's image, v down, for those of the file.
 Vec2f image_coordinates(const tinyobj_double::material_t& material, double u, double v);

@@ -6,6 +6,7 @@
 #include "input/gltf.h"
 #include "input/input_error.h"
 #include "input/obj.h"
+#include "input/up.h"
 #include "leafhull/tree.h"
 #include "text/file_name.h"
 
@@ -27,23 +28,27 @@ Bytes read_tree_file(const std::filesystem::path& path) try {
 
 }  // namespace
 
-TreeModel read_tree(const std::filesystem::path& path) {
+TreeModel read_tree(const std::filesystem::path& path, const ReadOptions& options) {
   constexpr std::string_view kFormats = "Give a .glb, .gltf or .obj file.";
   const Bytes bytes = read_tree_file(path);
   const std::string extension = lower_extension(path);
   if (bytes.empty()) input_error(path.string(), "", "is empty", kFormats);
 
   TreeModel tree;
+  const Companions companions(path, options.allow_outside);
   if (looks_like_gltf(text_of(bytes))) {
-    tree = read_gltf(bytes, path.string(), path.parent_path());
+    tree = read_gltf(bytes, path.string(), companions);
   } else if (extension == ".obj") {
-    tree = read_obj(bytes, path);
+    tree = read_obj(bytes, path.string(), companions);
   } else if (extension == ".glb" || extension == ".gltf") {
     input_error(path.string(), "", "is not a glTF file in spite of its name", kFormats);
   } else {
     input_error(path.string(), "", "is neither a glTF nor an OBJ file", kFormats);
   }
   tree.path = path;
+  if (options.up == Up::z) {
+    for (Instance& instance : tree.instances) instance.to_world = z_up_to_y_up(instance.to_world);
+  }
   return tree;
 }
 

@@ -91,7 +91,7 @@ View read_json(std::string_view text, const std::string& file) {
 
 /// A camera of glTF looks along its node's -z. Source: glTF 2.0, 3.10.
 View read_node(ByteSpan bytes, const std::filesystem::path& path) {
-  const GltfFile file = open_gltf(bytes, path.string(), path.parent_path());
+  const GltfFile file = open_gltf(bytes, path.string(), Companions(path, false));
   const std::vector<PlacedCamera> placed = place_cameras(file);
   const auto found = std::ranges::find_if(placed, [&](const PlacedCamera& camera) {
     return file.cameras[camera.camera].type == "perspective";

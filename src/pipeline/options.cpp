@@ -18,6 +18,7 @@ constexpr std::string_view kPointSourceNames[] = {"area", "vertices"};
 constexpr std::string_view kRadiusUnitNames[] = {"crown", "leaf", "model"};
 constexpr std::string_view kSpreadNames[] = {"stddev", "variance"};
 constexpr std::string_view kDensityNames[] = {"exact", "grid"};
+constexpr std::string_view kUpNames[] = {"y", "z"};
 constexpr std::string_view kHollowsNames[] = {"fill", "keep"};
 constexpr std::string_view kMesherNames[] = {"vdb", "bricks"};
 constexpr std::string_view kPresetNames[] = {"paper-32", "paper-64", "paper-128", "draft",
@@ -204,6 +205,7 @@ std::span<const std::string_view> names(PointSource) { return kPointSourceNames;
 std::span<const std::string_view> names(RadiusUnit) { return kRadiusUnitNames; }
 std::span<const std::string_view> names(Spread) { return kSpreadNames; }
 std::span<const std::string_view> names(DensitySource) { return kDensityNames; }
+std::span<const std::string_view> names(Up) { return kUpNames; }
 std::span<const std::string_view> names(Hollows) { return kHollowsNames; }
 std::span<const std::string_view> names(Mesher) { return kMesherNames; }
 std::span<const std::string_view> names(Preset) { return kPresetNames; }

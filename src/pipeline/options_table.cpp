@@ -27,6 +27,19 @@ std::string_view choices() {
 
 std::span<const OptionRow> option_table() {
   static const OptionRow rows[] = {
+      // Input
+      {.name = "up",
+       .group = "Input",
+       .range = choices<Up>(),
+       .default_value = "the file's own word, else y",
+       .help = "the axis of a tree's file that points up: z stands trees up that lie on their side",
+       .member = &Options::up},
+      {.name = "allow-outside",
+       .group = "Input",
+       .default_value = "off",
+       .help = "reads textures and buffers that a file names outside of its own folder too",
+       .member = &Options::allow_outside},
+
       // Leaves
       {.name = "leaves",
        .group = "Leaves",

@@ -12,6 +12,7 @@
 #include "input/file_bytes.h"
 #include "input/gltf_meshes.h"
 #include "input/input_error.h"
+#include "input/up.h"
 #include "scene/scene_builder.h"
 
 namespace leafhull {
@@ -142,16 +143,24 @@ void strip(TreeModel& tree, const std::vector<SceneModel>& models) {
 
 }  // namespace
 
-Scene read_gltf_scene(const fs::path& file, const LeafOptions& leaves) {
+Scene read_gltf_scene(const fs::path& file, const LeafOptions& leaves,
+                      const ReadOptions& reading) {
   SceneBuilder builder(file);
   TreeCollector trees(builder, leaves);
   auto tree = std::make_shared<TreeModel>();
+  const auto upright = [&](const PlacedMesh& placed) {
+    PlacedMesh standing = placed;
+    if (reading.up == Up::z) standing.to_world = z_up_to_y_up(placed.to_world);
+    return standing;
+  };
   {
     const Bytes bytes = read_scene_file(file);
     *tree = read_gltf_meshes(
-                bytes, file.string(), file.parent_path(),
-                [&](const auto& meshes, const auto& placed) { trees.take(meshes, placed); },
-                [&](const auto& meshes, const auto& placed) { trees.survey(meshes, placed); })
+                bytes, file.string(), Companions(file, reading.allow_outside),
+                [&](const auto& meshes, const auto& placed) { trees.take(meshes, upright(placed)); },
+                [&](const auto& meshes, const auto& placed) {
+                  trees.survey(meshes, upright(placed));
+                })
                 .tree;
   }
   tree->path = file;

@@ -7,12 +7,23 @@
 #include "text/text.h"
 
 namespace leafhull {
+namespace {
 
-Scene read_scene(const std::filesystem::path& path, const LeafOptions& leaves) {
+Scene read_scatter_file(const std::filesystem::path& path, const std::string& extension) {
+  return extension == ".csv" ? read_csv_scene(path) : read_jsonl_scene(path);
+}
+
+}  // namespace
+
+Scene read_scene(const std::filesystem::path& path, const LeafOptions& leaves,
+                 const ReadOptions& reading) {
   const std::string extension = lower_extension(path);
-  if (extension == ".csv") return read_csv_scene(path);
-  if (extension == ".jsonl" || extension == ".ndjson") return read_jsonl_scene(path);
-  if (extension == ".glb" || extension == ".gltf") return read_gltf_scene(path, leaves);
+  if (extension == ".csv" || extension == ".jsonl" || extension == ".ndjson") {
+    Scene scene = read_scatter_file(path, extension);
+    for (SceneModel& model : scene.models) model.reading = reading;
+    return scene;
+  }
+  if (extension == ".glb" || extension == ".gltf") return read_gltf_scene(path, leaves, reading);
   throw Error(ErrorCode::input, printable(path.string(), 1000) + " is not a scene",
               "A scene is a scatter file (.csv or .jsonl: tree files and where they stand) or a "
               "glTF file (.glb or .gltf) whose nodes are trees.");

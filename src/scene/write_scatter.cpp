@@ -53,7 +53,7 @@ void check(const ScatterOptions& options) {
 double mean_crown_width(const ScatterOptions& options) {
   double sum = 0;
   for (const fs::path& tree : options.trees) {
-    const Vec3d size = find_leaves(read_tree(tree), options.leaves).crown.size();
+    const Vec3d size = find_leaves(read_tree(tree, options.reading), options.leaves).crown.size();
     sum += (size.x + size.z) / 2;
   }
   return sum / static_cast<double>(options.trees.size());

@@ -41,7 +41,7 @@ void check(const leafhull::TreeModel& tree) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   try {
-    check(leafhull::read_gltf({data, size}, "fuzz", std::nullopt));
+    check(leafhull::read_gltf({data, size}, "fuzz", {}));
   } catch (const leafhull::Error& error) {
     require(error.code() == leafhull::ErrorCode::input);
     for (const char* c = error.what(); *c; ++c) require(*c != '\n');

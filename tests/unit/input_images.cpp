@@ -92,10 +92,10 @@ TEST(Images, ReadsExternalFilesAndWarnsWhereTheyAreMissing) {
   GlbBuilder b = textured();
   b.json["images"][0] = {{"uri", "leaf%20mask.png"}};
   const Bytes glb = b.glb(), file = png(2, 2, kPixels);
-  EXPECT_EQ(read_gltf(glb, "t.glb", folder.path()).warnings.size(), 1u);
+  EXPECT_EQ(read_gltf(glb, "t.glb", Companions(folder / "t.glb", false)).warnings.size(), 1u);
   std::ofstream(folder / "leaf mask.png", std::ios::binary)
       .write(reinterpret_cast<const char*>(file.data()), std::streamsize(file.size()));
-  const TreeModel tree = read_gltf(glb, "t.glb", folder.path());
+  const TreeModel tree = read_gltf(glb, "t.glb", Companions(folder / "t.glb", false));
   EXPECT_TRUE(tree.warnings.empty());
   EXPECT_EQ(tree.images[0].rgba, kPixels);
 }

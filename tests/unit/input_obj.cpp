@@ -17,7 +17,7 @@ namespace {
 
 TreeModel read_lines(const std::string& text) {
   const auto* bytes = reinterpret_cast<const std::uint8_t*>(text.data());
-  return read_obj({bytes, text.size()}, "t.obj");
+  return read_obj({bytes, text.size()}, "t.obj", Companions("t.obj", false));
 }
 
 std::string error_of(const std::string& text) {

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "input/file_bytes.h"
+
+namespace leafhull {
+
+/// The files that a tree file names: textures, buffers, material libraries. Files come from the net
+/// and should not name others of this machine, so that by default only those in the tree file's
+/// folder and below are read.
+class Companions {
+ public:
+  /// None are read.
+  Companions() = default;
+  Companions(std::filesystem::path tree_file, bool allow_outside);
+
+  bool any() const { return tree_file_.has_value(); }
+
+  struct Found {
+    std::filesystem::path path;
+    std::string note;  ///< how it was found, where that is a guess
+  };
+  /// The file of a name as the tree file has it, with slashes of either kind. One that is not there
+  /// is looked for by the end of its path and in the usual folders for textures, in any case: paths
+  /// of other machines and wrong capitals are common.
+  /// @throws FileError: it is not there, or lies outside.
+  Found find(std::string_view written) const;
+
+ private:
+  std::optional<std::filesystem::path> beside(const std::filesystem::path& written) const;
+
+  std::optional<std::filesystem::path> tree_file_;
+  bool allow_outside_ = false;
+};
+
+}  // namespace leafhull
