@@ -13,7 +13,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 # Room: the rooms it may include beside itself, and the third-party libraries it may know.
 ROOMS = {
     "colour": ((), ()),
-    "input": (("colour", "text"), ("tinygltf", "tinyobjloader", "json", "draco", "meshoptimizer", "stb")),
+    "input": (("colour", "text"), ("tinygltf", "tinyobjloader", "json", "draco", "meshoptimizer", "stb", "ufbx", "webp")),
     "leaves": ((), ("eigen",)),
     "foliage": (("colour", "leaves"), ("eigen",)),
     "points": (("leaves",), ("eigen", "tbb")),
@@ -70,6 +70,8 @@ LIBRARIES = {
     "tbb": ("tbb/", "oneapi/"),
     "tinygltf": ("tiny_gltf.h",),
     "tinyobjloader": ("tiny_obj_loader.h",),
+    "ufbx": ("ufbx.h",),
+    "webp": ("webp/",),
 }
 
 # Of POSIX and the C library, for files, processes, signals, memory and shared libraries.

@@ -2,11 +2,16 @@
 #include "input/images.h"
 
 #include <stb/stb_image.h>
+#include <webp/decode.h>
 
+#include <algorithm>
+#include <array>
 #include <climits>
 #include <cstdint>
 #include <memory>
 #include <string_view>
+
+#include "text/file_name.h"
 
 namespace leafhull {
 namespace {
@@ -14,20 +19,85 @@ namespace {
 // A few bytes can claim any size; this is 256 MiB decoded.
 constexpr std::int64_t kMostPixels = 8192 * 8192;
 
+enum class Format { stb, webp, unread };
+
+struct Signature {
+  std::size_t at;
+  std::string_view bytes;
+  Format format;
+  std::string_view name;
+};
+
 // stb_image's readers of rarer formats are not meant for files from strangers.
-bool is_accepted_format(ByteSpan bytes, std::string_view name) {
+constexpr std::array kSignatures{
+    Signature{0, "\x89PNG", Format::stb, "PNG"},
+    Signature{0, "\xFF\xD8\xFF", Format::stb, "JPEG"},
+    Signature{0, "BM", Format::stb, "BMP"},
+    Signature{8, "WEBP", Format::webp, "WebP"},
+    Signature{0, "\xABKTX 20\xBB", Format::unread, "KTX2"},
+    Signature{0, "\xABKTX 11\xBB", Format::unread, "KTX"},
+    Signature{0, "DDS ", Format::unread, "DDS"},
+    Signature{0, "GIF8", Format::unread, "GIF"},
+    Signature{0, "8BPS", Format::unread, "Photoshop"},
+    Signature{0, std::string_view("II*\0", 4), Format::unread, "TIFF"},
+    Signature{0, std::string_view("MM\0*", 4), Format::unread, "TIFF"},
+    Signature{0, "\x76\x2F\x31\x01", Format::unread, "OpenEXR"},
+    Signature{4, "ftypavif", Format::unread, "AVIF"},
+};
+
+const Signature* signature_of(ByteSpan bytes) {
   const std::string_view text = text_of(bytes);
-  return text.starts_with("\x89PNG") || text.starts_with("\xFF\xD8\xFF") ||
-         text.starts_with("BM") || name.ends_with(".tga") || name.ends_with(".TGA");
+  const auto* found = std::ranges::find_if(kSignatures, [&](const Signature& signature) {
+    return text.size() > signature.at && text.substr(signature.at).starts_with(signature.bytes);
+  });
+  return found == kSignatures.end() ? nullptr : found;
 }
 
-}  // namespace
+constexpr std::string_view kRead = "; PNG, JPEG, WebP, BMP and TGA are read";
 
-Image decode_image(ByteSpan bytes, const std::string& name, std::string& reason) {
-  if (bytes.size() > INT_MAX || !is_accepted_format(bytes, name)) {
-    reason = "it is not a PNG or JPEG image";
+std::string why_unread(const Signature* signature) {
+  if (!signature) return "it is no image that is known" + std::string(kRead);
+  if (signature->name == "KTX2") {
+    return "it is a KTX2 image, so that its colours and holes are lost; gltf-transform "
+           "ktxdecompress IN.glb OUT.glb makes PNG of it";
+  }
+  return "it is of the format " + std::string(signature->name) + std::string(kRead);
+}
+
+bool is_too_large(const Image& image, std::string& reason) {
+  const bool too_large = static_cast<std::int64_t>(image.width) * image.height > kMostPixels;
+  if (too_large) reason = "it is larger than 8192 x 8192 pixels";
+  return too_large;
+}
+
+std::size_t bytes_of(const Image& image) {
+  return std::size_t{4} * static_cast<std::size_t>(image.width) *
+         static_cast<std::size_t>(image.height);
+}
+
+Image decode_webp(ByteSpan bytes, std::string& reason) {
+  Image image;
+  WebPBitstreamFeatures features;
+  if (WebPGetFeatures(bytes.data(), bytes.size(), &features) != VP8_STATUS_OK) {
+    reason = "its WebP data is damaged";
     return {};
   }
+  if (features.has_animation) {
+    reason = "it is an animation";
+    return {};
+  }
+  image.width = features.width, image.height = features.height;
+  if (is_too_large(image, reason)) return {};
+  image.rgba.resize(bytes_of(image));
+  if (!WebPDecodeRGBAInto(bytes.data(), bytes.size(), image.rgba.data(), image.rgba.size(),
+                          4 * image.width)) {
+    reason = "its WebP data is damaged";
+    return {};
+  }
+  return image;
+}
+
+Image decode_stb(ByteSpan bytes, std::string& reason) {
   Image image;
   const int length = static_cast<int>(bytes.size());
   int channels = 0;
@@ -35,11 +105,7 @@ Image decode_image(ByteSpan bytes, const std::string& name, std::string& reason)
     reason = stbi_failure_reason();
     return {};
   }
-  const std::int64_t pixels = static_cast<std::int64_t>(image.width) * image.height;
-  if (pixels > kMostPixels) {
-    reason = "it is larger than 8192 x 8192 pixels";
-    return {};
-  }
+  if (is_too_large(image, reason)) return {};
   const std::unique_ptr<stbi_uc, void (*)(void*)> rgba(
       stbi_load_from_memory(bytes.data(), length, &image.width, &image.height, &channels, 4),
       &stbi_image_free);
@@ -47,8 +113,47 @@ Image decode_image(ByteSpan bytes, const std::string& name, std::string& reason)
     reason = stbi_failure_reason();
     return {};
   }
-  image.rgba.assign(rgba.get(), rgba.get() + pixels * 4);
+  image.rgba.assign(rgba.get(), rgba.get() + bytes_of(image));
   return image;
+}
+
+}  // namespace
+
+Image decode_image(ByteSpan bytes, const std::string& name, std::string& reason) {
+  const Signature* signature = signature_of(bytes);
+  const bool is_tga = !signature && lower_extension(name) == ".tga";  // which has none
+  const Format format = signature ? signature->format : is_tga ? Format::stb : Format::unread;
+  if (bytes.size() > INT_MAX || format == Format::unread) {
+    reason = why_unread(signature);
+    return {};
+  }
+  return format == Format::webp ? decode_webp(bytes, reason) : decode_stb(bytes, reason);
+}
+
+bool has_transparency(const Image& image) {
+  for (std::size_t i = 3; i < image.rgba.size(); i += 4) {
+    if (image.rgba[i] != 255) return true;
+  }
+  return false;
+}
+
+Image with_opacity(const Image& colour, Image opacity) {
+  const bool in_alpha = has_transparency(opacity);
+  for (int y = 0; y < opacity.height; ++y) {
+    for (int x = 0; x < opacity.width; ++x) {
+      std::uint8_t* pixel =
+          &opacity.rgba[4 * (static_cast<std::size_t>(y) * opacity.width + x)];
+      if (!in_alpha) pixel[3] = pixel[0];
+      if (colour.empty()) {
+        std::fill(pixel, pixel + 3, 255);
+        continue;
+      }
+      const std::size_t from_x = static_cast<std::size_t>(x) * colour.width / opacity.width;
+      const std::size_t from_y = static_cast<std::size_t>(y) * colour.height / opacity.height;
+      std::copy_n(&colour.rgba[4 * (from_y * colour.width + from_x)], 3, pixel);
+    }
+  }
+  return opacity;
 }
 
 }  // namespace leafhull

@@ -8,8 +8,15 @@
 
 namespace leafhull {
 
-/// Decodes PNG, JPEG, BMP, or TGA where `name` ends so. Returns an empty image and sets `reason`
-/// where that is not possible.
+/// Decodes PNG (16 bits and palettes too), JPEG, WebP, BMP, or TGA where `name` ends so. Returns an
+/// empty image and sets `reason` where that is not possible.
 Image decode_image(ByteSpan bytes, const std::string& name, std::string& reason);
+
+/// Whether any texel is not opaque.
+bool has_transparency(const Image& image);
+
+/// A colour image, or white where it is empty, with the opacity that another shows: in its alpha
+/// where it has one, else in its grey. It has the size of the opacity.
+Image with_opacity(const Image& colour, Image opacity);
 
 }  // namespace leafhull

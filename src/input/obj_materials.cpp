@@ -56,32 +56,6 @@ Image read_image(const std::string& name, const Companions& companions,
   return image;
 }
 
-bool has_transparency(const Image& image) {
-  for (std::size_t i = 3; i < image.rgba.size(); i += 4) {
-    if (image.rgba[i] != 255) return true;
-  }
-  return false;
-}
-
-// map_d is a picture of the opacity: in its alpha where it has one, else in its grey.
-Image with_alpha(const Image& color, Image mask) {
-  const bool in_alpha = has_transparency(mask);
-  for (int y = 0; y < mask.height; ++y) {
-    for (int x = 0; x < mask.width; ++x) {
-      std::uint8_t* pixel = &mask.rgba[4 * (static_cast<std::size_t>(y) * mask.width + x)];
-      if (!in_alpha) pixel[3] = pixel[0];
-      if (color.empty()) {
-        std::fill(pixel, pixel + 3, 255);
-        continue;
-      }
-      const std::size_t from_x = static_cast<std::size_t>(x) * color.width / mask.width;
-      const std::size_t from_y = static_cast<std::size_t>(y) * color.height / mask.height;
-      std::copy_n(&color.rgba[4 * (from_y * color.width + from_x)], 3, pixel);
-    }
-  }
-  return mask;
-}
-
 }  // namespace
 
 ObjMaterials read_material_libraries(std::string_view obj, const Companions& companions,
@@ -141,7 +115,7 @@ void add_materials(const ObjMaterials& from, const std::vector<bool>& used,
     if (!color.empty()) image = read_image(color, companions, tree.warnings);
     if (!alpha.empty() && alpha != color) {
       Image mask = read_image(alpha, companions, tree.warnings);
-      if (!mask.empty()) image = with_alpha(image, std::move(mask));
+      if (!mask.empty()) image = with_opacity(image, std::move(mask));
     }
     image.name = color.empty() ? alpha : color;
     tree.images.push_back(std::move(image));

@@ -2,6 +2,7 @@
 #include <string>
 #include <string_view>
 
+#include "input/fbx.h"
 #include "input/file_bytes.h"
 #include "input/gltf.h"
 #include "input/input_error.h"
@@ -38,6 +39,9 @@ TreeModel read_tree(const std::filesystem::path& path, const ReadOptions& option
   const Companions companions(path, options.allow_outside);
   if (looks_like_gltf(text_of(bytes))) {
     tree = read_gltf(bytes, path.string(), companions);
+  } else if (looks_like_fbx(bytes)) {
+    tree = read_fbx(bytes, path.string(), companions,
+                    options.up ? Axes::as_they_are : Axes::as_it_says);
   } else if (extension == ".obj") {
     tree = read_obj(bytes, path.string(), companions);
   } else if (extension == ".glb" || extension == ".gltf") {

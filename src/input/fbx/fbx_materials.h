@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <ufbx.h>
+
+#include <map>
+#include <string>
+#include <utility>
+
+#include "input/companions.h"
+#include "leafhull/tree.h"
+
+namespace leafhull {
+
+/// Turns the materials of an FBX file into a tree's, as they are used.
+class FbxMaterials {
+ public:
+  FbxMaterials(const Companions& companions, TreeModel& tree)
+      : companions_(companions), tree_(tree) {}
+
+  /// The tree's number of a material; -1 for none.
+  int use(const ufbx_material* material);
+
+  /// The texture that colours a material, or null.
+  static const ufbx_texture* colour_texture(const ufbx_material* material);
+
+ private:
+  Material read(const ufbx_material& material);
+  int read_image(const ufbx_texture* colour, const ufbx_texture* opacity);
+  Image decode(const ufbx_texture& texture);
+
+  const Companions& companions_;
+  TreeModel& tree_;
+  std::map<const ufbx_material*, int> numbers_;
+  std::map<std::pair<std::string, std::string>, int> images_;  ///< by colour and opacity
+};
+
+}  // namespace leafhull
