@@ -144,8 +144,9 @@ std::vector<Out> read(GltfFile& file, int index, int type, const std::string& us
   const std::string place = accessor_place(user, index);
   const tinygltf::Accessor& accessor = file.model.accessors[index];
   if (accessor.type != type) {
-    file.fail(place, type == TINYGLTF_TYPE_SCALAR
-                         ? "its elements are not SCALAR"
+    file.fail(place, type == TINYGLTF_TYPE_SCALAR ? "its elements are not SCALAR"
+                     : type == TINYGLTF_TYPE_MAT4
+                         ? "its elements are not MAT4"
                          : "its elements are not VEC" + std::to_string(type));
   }
   constexpr bool wants_indices = !std::is_same_v<Out, float>;
@@ -156,7 +157,9 @@ std::vector<Out> read(GltfFile& file, int index, int type, const std::string& us
   }
 
   Elements shape{.count = accessor.count,
-                 .components = type == TINYGLTF_TYPE_SCALAR ? 1 : type,
+                 .components = type == TINYGLTF_TYPE_SCALAR ? 1
+                               : type == TINYGLTF_TYPE_MAT4 ? 16
+                                                            : type,
                  .component_type = accessor.componentType,
                  .normalized = accessor.normalized};
   std::vector<Out> out;
@@ -225,6 +228,14 @@ std::vector<Vec3f> read_vec3(GltfFile& file, int accessor, const std::string& us
 
 std::vector<std::array<float, 4>> read_vec4(GltfFile& file, int accessor, const std::string& user) {
   return read_vectors<std::array<float, 4>>(file, accessor, TINYGLTF_TYPE_VEC4, user);
+}
+
+std::vector<std::array<float, 16>> read_mat4(GltfFile& file, int accessor,
+                                             const std::string& user) {
+  const std::vector<float> floats = read<float>(file, accessor, TINYGLTF_TYPE_MAT4, user);
+  std::vector<std::array<float, 16>> matrices(floats.size() / 16);
+  for (std::size_t i = 0; i < floats.size(); ++i) matrices[i / 16][i % 16] = floats[i];
+  return matrices;
 }
 
 std::vector<Vec3f> read_colors(GltfFile& file, int accessor, const std::string& user) {

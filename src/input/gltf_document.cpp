@@ -21,7 +21,8 @@ constexpr std::int64_t kLargestOffset = std::int64_t{1} << 53;  // exact in ever
 constexpr std::array kReadExtensions = {
     "EXT_mesh_gpu_instancing",    "EXT_meshopt_compression", "EXT_texture_webp",
     "KHR_draco_mesh_compression", "KHR_mesh_quantization",   "KHR_materials_pbrSpecularGlossiness",
-    "KHR_texture_basisu",         "KHR_texture_transform",   "MSFT_lod"};
+    "KHR_node_visibility",        "KHR_texture_basisu",      "KHR_texture_transform",
+    "MSFT_lod"};
 
 constexpr std::array kHarmlessExtensions = {
     "ADOBE_materials_", "EXT_lights_", "EXT_texture_avif", "KHR_lights_",
@@ -29,15 +30,16 @@ constexpr std::array kHarmlessExtensions = {
 
 constexpr std::array kWholeNumbers = {
     "buffer",        "bufferView", "byteLength", "byteOffset", "byteStride", "camera",
-    "componentType", "count",      "index",      "indices",    "mesh",       "material",
-    "mode",          "sampler",    "scene",      "skin",       "source",     "texCoord"};
+    "componentType", "count",      "index",      "indices",    "inverseBindMatrices",
+    "mesh",          "material",   "mode",       "sampler",    "scene",      "skeleton",
+    "skin",          "source",     "texCoord"};
 
 constexpr std::array kLists = {"accessors", "bufferViews", "buffers", "cameras",
                                "images",    "materials",   "meshes",  "nodes",
-                               "samplers",  "scenes",      "textures"};
+                               "samplers",  "scenes",      "skins",   "textures"};
 
 // Members that tinygltf would read, at a cost or at a risk, for nothing.
-constexpr std::array kUnreadMembers = {"animations", "extensions", "extras", "skins"};
+constexpr std::array kUnreadMembers = {"animations", "extensions", "extras"};
 
 bool is_read_extension(std::string_view name) {
   return std::ranges::find(kReadExtensions, name) != kReadExtensions.end();
@@ -130,7 +132,14 @@ class DocumentCheck {
         check_whole_numbers(value, key, place);
       } else if (key == "attributes") {
         for (auto& [name, accessor] : member.items()) check_whole_number(accessor, name, place);
-      } else if (key == "children" || (key == "nodes" && member.is_array())) {
+      } else if (key == "targets" && member.is_array()) {
+        for (json& target : member) {
+          if (!target.is_object()) fail(place, "a morph target is not an object");
+          for (auto& [name, accessor] : target.items()) check_whole_number(accessor, name, place);
+        }
+      } else if (key == "weights") {
+        check_weights(member, place);
+      } else if (key == "joints" || key == "children" || (key == "nodes" && member.is_array())) {
         for (const json& node : member) check_whole_number(node, key, place);
       }
       check_object(member, place);
@@ -162,6 +171,13 @@ class DocumentCheck {
     if (!number.is_number_unsigned() || number.get<std::uint64_t>() > largest) {
       fail(place, printable(key) + " is " + printable(number.dump()) +
                       ", not a whole number from 0 to " + std::to_string(largest));
+    }
+  }
+
+  void check_weights(const json& weights, const std::string& place) const {
+    const auto is_number = [](const json& v) { return v.is_number(); };
+    if (!weights.is_array() || !std::ranges::all_of(weights, is_number)) {
+      fail(place, "its weights are not numbers");
     }
   }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "input/gltf_meshes.h"
 
-#include <set>
+#include <map>
 
 #include "input/gltf_file.h"
 #include "input/gltf_materials.h"
@@ -16,24 +16,26 @@ GltfMeshes read_gltf_meshes(ByteSpan bytes, const std::string& name,
   GltfFile file = open_gltf(bytes, name, companions);
   GltfMeshes meshes;
   TreeModel& tree = meshes.tree;
-  const std::set<int> placed = placed_meshes(file);
+  const std::map<MeshUse, int> uses = mesh_uses(file);
+  const std::vector<Transform> to_world = node_transforms(file);
   tree.nodes = node_table(file);
   MaterialReader materials(file, tree);
   materials.read_all();
-  for (const int mesh : placed) {
-    const std::size_t count = file.model.meshes[mesh].primitives.size();
+  for (const auto& [use, number] : uses) {
+    const GltfPose pose = pose_of(file, use, to_world);
+    const std::size_t count = file.model.meshes[use.mesh].primitives.size();
     for (std::size_t i = 0; i < count; ++i) {
-      auto primitive =
-          read_primitive(file, static_cast<std::size_t>(mesh), i, materials, tree.warnings);
+      auto primitive = read_primitive(file, static_cast<std::size_t>(use.mesh), i, materials, pose,
+                                      tree.warnings);
       if (!primitive) continue;
-      meshes.primitives[mesh].push_back(static_cast<std::uint32_t>(tree.primitives.size()));
+      meshes.primitives[number].push_back(static_cast<std::uint32_t>(tree.primitives.size()));
       tree.primitives.push_back(std::move(*primitive));
     }
   }
   tree.warnings.insert(tree.warnings.begin(), file.notes.begin(), file.notes.end());
   for (const MeshVisitor* visitor : {&survey, &visit}) {
     if (!*visitor) continue;
-    place_meshes(file, [&](const PlacedMesh& placed_mesh) {
+    place_meshes(file, uses, [&](const PlacedMesh& placed_mesh) {
       if (meshes.primitives.contains(placed_mesh.mesh)) (*visitor)(meshes, placed_mesh);
     });
   }

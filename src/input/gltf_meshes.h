@@ -18,7 +18,7 @@ namespace leafhull {
 
 /// A mesh of the file put into the scene by a node.
 struct PlacedMesh {
-  int mesh = 0;
+  int mesh = 0;  ///< its number in GltfMeshes::primitives
   int node = 0;
   const std::string& node_name;
   std::optional<std::size_t> copy;  ///< of EXT_mesh_gpu_instancing
@@ -33,7 +33,8 @@ bool is_finite(const Transform& transform);
 /// The meshes that the default scene places, each once.
 struct GltfMeshes {
   TreeModel tree;                                        ///< without instances
-  std::map<int, std::vector<std::uint32_t>> primitives;  ///< of the tree by mesh, in file order
+  std::map<int, std::vector<std::uint32_t>> primitives;  ///< of the tree by the mesh's number, in file
+                                                         ///< order; posed ones have their own
 };
 
 using MeshVisitor = std::function<void(const GltfMeshes& meshes, const PlacedMesh& placed)>;

@@ -103,22 +103,38 @@ std::vector<int> root_nodes(const GltfFile& file) {
   return roots;
 }
 
-/// Every node of the scene in depth-first order: visit(index, node, to_world).
+bool hides_itself(const tinygltf::Node& node) {
+  const auto* visibility = find_extension(node.extensions, "KHR_node_visibility");
+  if (!visibility) return false;
+  const tinygltf::Value& visible = visibility->Get("visible");
+  return visible.IsBool() && !visible.Get<bool>();
+}
+
+/// A node of the scene.
+struct Visited {
+  int index;
+  const tinygltf::Node& node;
+  Transform to_world;
+  bool is_hidden;  ///< or a node above it
+};
+
+/// Every node of the scene in depth-first order.
 template <class Visit>
 void walk(const GltfFile& file, Visit&& visit) {
   struct Stop {
     int node;
     Transform parent;
+    bool is_hidden;
   };
   std::vector<Stop> stack;
-  const auto push = [&](const std::vector<int>& nodes, const Transform& parent) {
-    for (std::size_t i = nodes.size(); i-- > 0;) stack.push_back({nodes[i], parent});
+  const auto push = [&](const std::vector<int>& nodes, const Transform& parent, bool is_hidden) {
+    for (std::size_t i = nodes.size(); i-- > 0;) stack.push_back({nodes[i], parent, is_hidden});
   };
-  push(root_nodes(file), kIdentity);
+  push(root_nodes(file), kIdentity, false);
 
   std::vector<bool> visited(file.model.nodes.size(), false);
   while (!stack.empty()) {
-    const auto [index, parent] = stack.back();
+    const auto [index, parent, above_is_hidden] = stack.back();
     stack.pop_back();
     if (!is_index(index, visited.size())) {
       file.fail("nodes", "there is no " + place_of("nodes", index));
@@ -131,8 +147,9 @@ void walk(const GltfFile& file, Visit&& visit) {
 
     const tinygltf::Node& node = file.model.nodes[index];
     const Transform to_world = parent * local_transform(node);
-    push(node.children, to_world);
-    visit(index, node, to_world);
+    const bool is_hidden = above_is_hidden || hides_itself(node);
+    push(node.children, to_world, is_hidden);
+    visit(Visited{index, node, to_world, is_hidden});
   }
 }
 
@@ -174,40 +191,60 @@ std::vector<TreeNode> node_table(const GltfFile& file) {
   return table;
 }
 
-std::set<int> placed_meshes(const GltfFile& file) {
-  std::set<int> meshes;
-  walk(file, [&](int index, const tinygltf::Node& node, const Transform&) {
-    if (node.mesh < 0) return;
-    if (!is_index(node.mesh, file.model.meshes.size())) {
-      file.fail(place_of("nodes", index), "there is no " + place_of("meshes", node.mesh));
+std::map<MeshUse, int> mesh_uses(GltfFile& file) {
+  std::map<MeshUse, int> uses;
+  int posed = static_cast<int>(file.model.meshes.size());
+  std::size_t hidden = 0;
+  walk(file, [&](const Visited& at) {
+    if (at.node.mesh < 0) return;
+    if (at.is_hidden) {
+      ++hidden;
+      return;
     }
-    meshes.insert(node.mesh);
+    MeshUse use = use_of(file, at.index);
+    const int number = use.is_plain() ? use.mesh : posed;
+    if (uses.emplace(std::move(use), number).second && number == posed) ++posed;
   });
-  return meshes;
+  if (hidden > 0) {
+    file.notes.push_back(std::to_string(hidden) +
+                         (hidden == 1 ? " hidden mesh is" : " hidden meshes are") +
+                         " passed over");
+  }
+  return uses;
 }
 
-void place_meshes(GltfFile& file, const std::function<void(const PlacedMesh&)>& place) {
-  walk(file, [&](int index, const tinygltf::Node& node, const Transform& to_world) {
-    if (node.mesh < 0) return;
-    const auto* copies = find_extension(node.extensions, "EXT_mesh_gpu_instancing");
-    if (!copies) return place({node.mesh, index, node.name, {}, to_world});
-    visit_copies(file, *copies, place_of("nodes", index) + ", EXT_mesh_gpu_instancing",
+std::vector<Transform> node_transforms(const GltfFile& file) {
+  std::vector<Transform> transforms(file.model.nodes.size(), kIdentity);
+  walk(file, [&](const Visited& at) { transforms[at.index] = at.to_world; });
+  return transforms;
+}
+
+void place_meshes(GltfFile& file, const std::map<MeshUse, int>& uses,
+                  const std::function<void(const PlacedMesh&)>& place) {
+  walk(file, [&](const Visited& at) {
+    if (at.node.mesh < 0 || at.is_hidden) return;
+    const MeshUse use = use_of(file, at.index);
+    const int mesh = uses.at(use);
+    const Transform& to_world = use.skin < 0 ? at.to_world : kIdentity;
+    const auto* copies = find_extension(at.node.extensions, "EXT_mesh_gpu_instancing");
+    if (!copies) return place({mesh, at.index, at.node.name, {}, to_world});
+    visit_copies(file, *copies, place_of("nodes", at.index) + ", EXT_mesh_gpu_instancing",
                  [&](std::size_t copy, const Transform& in_node) {
-                   place({node.mesh, index, node.name, copy, to_world * in_node});
+                   place({mesh, at.index, at.node.name, copy, to_world * in_node});
                  });
   });
 }
 
 std::vector<PlacedCamera> place_cameras(const GltfFile& file) {
   std::vector<PlacedCamera> placements;
-  walk(file, [&](int index, const tinygltf::Node& node, const Transform& to_world) {
-    if (node.camera < 0) return;
-    const std::string place = place_of("nodes", index);
-    if (!is_index(node.camera, file.cameras.size())) {
-      file.fail(place, "there is no " + place_of("cameras", node.camera));
+  walk(file, [&](const Visited& at) {
+    if (at.node.camera < 0) return;
+    const std::string place = place_of("nodes", at.index);
+    if (!is_index(at.node.camera, file.cameras.size())) {
+      file.fail(place, "there is no " + place_of("cameras", at.node.camera));
     }
-    if (!is_finite(to_world)) file.fail(place, "has a transform that is not finite");
-    placements.push_back({node.camera, place, to_world});
+    if (!is_finite(at.to_world)) file.fail(place, "has a transform that is not finite");
+    placements.push_back({at.node.camera, place, at.to_world});
   });
   return placements;
 }

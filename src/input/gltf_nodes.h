@@ -2,12 +2,13 @@
 #pragma once
 
 #include <functional>
-#include <set>
+#include <map>
 #include <string>
 #include <vector>
 
 #include "input/gltf_file.h"
 #include "input/gltf_meshes.h"
+#include "input/gltf_pose.h"
 #include "leafhull/tree.h"
 
 namespace leafhull {
@@ -19,15 +20,20 @@ struct PlacedCamera {
   Transform to_world = kIdentity;
 };
 
-/// The numbers of the meshes that the nodes of the default scene hold (else of the first, else all
-/// nodes).
-/// @throws Error input: nodes that are not a tree; no such mesh.
-std::set<int> placed_meshes(const GltfFile& file);
+/// How the nodes of the default scene (else of the first, else all nodes) use meshes, and a number
+/// for each: the mesh's own, or one past all of them where it is posed. Hidden nodes stay out, and
+/// are counted in the file's notes.
+/// @throws Error input: nodes that are not a tree; no such mesh or skin.
+std::map<MeshUse, int> mesh_uses(GltfFile& file);
 
-/// The same meshes as the nodes place them, in depth-first order, each copy of
-/// EXT_mesh_gpu_instancing for itself. Skins and animations are at rest.
-/// @throws Error input, as placed_meshes; the attributes of the copies.
-void place_meshes(GltfFile& file, const std::function<void(const PlacedMesh&)>& place);
+/// Of every node of the file; those that are not in the scene stand at its origin.
+std::vector<Transform> node_transforms(const GltfFile& file);
+
+/// The same meshes, by their numbers in `uses`, as the nodes place them, in depth-first order, each
+/// copy of EXT_mesh_gpu_instancing for itself. What a skin has posed stands in the world already.
+/// @throws Error input, as mesh_uses; the attributes of the copies.
+void place_meshes(GltfFile& file, const std::map<MeshUse, int>& uses,
+                  const std::function<void(const PlacedMesh&)>& place);
 
 /// All nodes of the file by their numbers.
 std::vector<TreeNode> node_table(const GltfFile& file);

@@ -82,7 +82,7 @@ class PrimitiveReader {
                   std::vector<std::string>& warnings)
       : file_(file), source_(source), place_(std::move(place)), warnings_(warnings) {}
 
-  void read(Primitive& primitive, int uv_set) {
+  void read(Primitive& primitive, int uv_set, const GltfPose& pose) {
     const std::string uv_name = "TEXCOORD_" + std::to_string(uv_set);
     if (attribute(source_, "POSITION") < 0) file_.fail(place_, "has no POSITION");
     if (const auto* draco = find_extension(source_.extensions, "KHR_draco_mesh_compression")) {
@@ -90,12 +90,17 @@ class PrimitiveReader {
     } else {
       read_accessors(uv_name, primitive);
     }
+    check_numbers_of_values(primitive);
+    pose_primitive(file_, source_, pose, place_, primitive);
     check(primitive);
   }
 
  private:
   void read_draco(const tinygltf::Value& draco, const std::string& uv_name, Primitive& primitive) {
     const std::string place = place_ + ", KHR_draco_mesh_compression";
+    if (attribute(source_, "JOINTS_0") >= 0) {
+      warnings_.push_back(place + ": its skin is not applied");
+    }
     const tinygltf::Value& ids = draco.Get("attributes");
     const DracoAttributes attributes{.position = integer(ids, "POSITION", -1),
                                      .normal = integer(ids, "NORMAL", -1),
@@ -153,8 +158,8 @@ class PrimitiveReader {
         }
       }
     }
-    check_attribute(primitive.normals, count, "normals");
-    check_attribute(primitive.uvs, count, "texture coordinates");
+    check_finite(primitive.normals, "normals");
+    check_finite(primitive.uvs, "texture coordinates");
     if (!primitive.colors.empty() &&
         (primitive.colors.size() != count || !std::ranges::all_of(primitive.colors, is_color))) {
       warnings_.push_back(place_ + ", COLOR_0: does not hold a finite colour for every vertex; " +
@@ -163,14 +168,19 @@ class PrimitiveReader {
     }
   }
 
-  template <class Vector>
-  void check_attribute(const std::vector<Vector>& values, std::size_t count,
-                       const std::string& what) {
-    if (values.empty()) return;
-    if (values.size() != count) {
-      file_.fail(place_, "has " + std::to_string(values.size()) + ' ' + what + " for " +
+  void check_numbers_of_values(const Primitive& primitive) const {
+    const std::size_t count = primitive.positions.size();
+    const auto check_number = [&](std::size_t values, const std::string& what) {
+      if (values == 0 || values == count) return;
+      file_.fail(place_, "has " + std::to_string(values) + ' ' + what + " for " +
                              std::to_string(count) + " vertices");
-    }
+    };
+    check_number(primitive.normals.size(), "normals");
+    check_number(primitive.uvs.size(), "texture coordinates");
+  }
+
+  template <class Vector>
+  void check_finite(const std::vector<Vector>& values, const std::string& what) {
     if (std::ranges::all_of(values, [](Vector v) { return is_finite(v); })) return;
     warnings_.push_back(place_ + ", " + what + ": " + std::string(kNotAllFinite));
   }
@@ -184,7 +194,7 @@ class PrimitiveReader {
 }  // namespace
 
 std::optional<Primitive> read_primitive(GltfFile& file, std::size_t mesh, std::size_t index,
-                                        MaterialReader& materials,
+                                        MaterialReader& materials, const GltfPose& pose,
                                         std::vector<std::string>& warnings) {
   const tinygltf::Primitive& source = file.model.meshes[mesh].primitives[index];
   const std::string place = place_of("meshes", mesh) + '.' + place_of("primitives", index);
@@ -200,7 +210,7 @@ std::optional<Primitive> read_primitive(GltfFile& file, std::size_t mesh, std::s
   primitive.mesh_name = file.model.meshes[mesh].name;
   primitive.material = source.material;
   const TextureMapping mapping = materials.use(source.material, place);
-  PrimitiveReader(file, source, place, warnings).read(primitive, mapping.set);
+  PrimitiveReader(file, source, place, warnings).read(primitive, mapping.set, pose);
   if (primitive.triangles.empty()) {
     warnings.push_back(place + ": holds no triangles");
     return std::nullopt;

@@ -7,6 +7,7 @@
 
 #include "input/gltf_file.h"
 #include "input/gltf_materials.h"
+#include "input/gltf_pose.h"
 #include "leafhull/tree.h"
 
 namespace leafhull {
@@ -15,7 +16,7 @@ namespace leafhull {
 /// warning, where it holds no triangles.
 /// @throws Error input.
 std::optional<Primitive> read_primitive(GltfFile& file, std::size_t mesh, std::size_t primitive,
-                                        MaterialReader& materials,
+                                        MaterialReader& materials, const GltfPose& pose,
                                         std::vector<std::string>& warnings);
 
 }  // namespace leafhull

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <webp/encode.h>
+
 #include <fstream>
 #include <numbers>
 
 #include "glb_builder.h"
 #include "input/gltf.h"
+#include "input/images.h"
 #include "read_built.h"
 #include "temporary_folder.h"
 
@@ -62,7 +65,7 @@ TEST(Images, WarnsOfMissingAndBrokenTextures) {
   };
   GlbBuilder broken = textured();
   broken.bin[0] = 0;
-  EXPECT_NE(warning(broken).find("not a PNG or JPEG"), std::string::npos);
+  EXPECT_NE(warning(broken).find("no image that is known"), std::string::npos);
   GlbBuilder cut = textured();
   cut.json["bufferViews"][0]["byteLength"] = 40;
   EXPECT_NE(warning(cut).find("images[0]"), std::string::npos);
@@ -77,6 +80,79 @@ TEST(Images, WarnsOfMissingAndBrokenTextures) {
   basis.bin[0] = 0xAB;  // as KTX2 files begin
   basis.json["extensionsRequired"] = {"KHR_texture_basisu"};
   warning(basis);
+}
+
+Bytes webp(int width, int height, const Bytes& rgba) {
+  std::uint8_t* encoded = nullptr;
+  const std::size_t size =
+      WebPEncodeLosslessRGBA(rgba.data(), width, height, 4 * width, &encoded);
+  const Bytes bytes(encoded, encoded + size);
+  WebPFree(encoded);
+  return bytes;
+}
+
+TEST(Images, ReadsWebpAsAnExtensionAndAsAFile) {
+  const Bytes opaque{1, 2, 3, 255, 4, 5, 6, 255, 7, 8, 9, 255, 10, 11, 12, 0};
+  GlbBuilder b = textured();
+  const int view = b.add_view(webp(2, 2, opaque));
+  b.json["images"][0] = {{"bufferView", view}, {"mimeType", "image/webp"}};
+  b.json["textures"][0] = {{"extensions", {{"EXT_texture_webp", {{"source", 0}}}}}};
+  b.json["extensionsRequired"] = {"EXT_texture_webp"};
+  const TreeModel tree = read(b);
+  EXPECT_TRUE(tree.warnings.empty());
+  EXPECT_EQ(tree.images[0].width, 2);
+  EXPECT_EQ(Bytes(tree.images[0].rgba.begin(), tree.images[0].rgba.begin() + 12),
+            Bytes(opaque.begin(), opaque.begin() + 12));
+  EXPECT_EQ(tree.images[0].rgba[15], 0);
+
+  std::string reason;
+  EXPECT_EQ(decode_image(webp(2, 2, opaque), "leaf.webp", reason).height, 2);
+  EXPECT_EQ(reason, "");
+}
+
+TEST(Images, OfDamagedWebpSayWhy) {
+  const Bytes whole = webp(2, 2, kPixels);
+  for (std::size_t size = 12; size < whole.size(); ++size) {
+    std::string reason;
+    const Image image = decode_image({whole.data(), size}, "leaf.webp", reason);
+    EXPECT_EQ(image.empty(), !reason.empty()) << size;
+  }
+  Bytes wide = webp(1, 1, {1, 2, 3, 4});
+  wide[21] = wide[22] = wide[23] = wide[24] = 0xFF;  // 16,384 x 16,384
+  std::string reason;
+  EXPECT_TRUE(decode_image(wide, "leaf.webp", reason).empty());
+  EXPECT_NE(reason, "");
+}
+
+TEST(Images, OfOtherFormatsAreNamed) {
+  const auto reason_of = [](const std::string& text, const std::string& name) {
+    std::string reason;
+    EXPECT_TRUE(decode_image(Bytes(text.begin(), text.end()), name, reason).empty());
+    return reason;
+  };
+  EXPECT_NE(reason_of("\xABKTX 20\xBB\r\n\x1A\n", "a.ktx2").find("gltf-transform"),
+            std::string::npos);
+  EXPECT_NE(reason_of("DDS |", "a.dds").find("DDS; PNG, JPEG, WebP"), std::string::npos);
+  EXPECT_NE(reason_of("GIF89a", "a.png").find("GIF"), std::string::npos);
+  EXPECT_NE(reason_of("what", "a.png").find("no image that is known"), std::string::npos);
+  EXPECT_NE(reason_of("", "a.png"), "");
+}
+
+TEST(Images, OfTgaAreKnownByTheirName) {
+  // One pixel, 32 bits, uncompressed: blue, green, red, alpha.
+  const Bytes tga{0, 0, 2, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 1, 0, 32, 8, 3, 2, 1, 77};
+  std::string reason;
+  EXPECT_EQ(decode_image(tga, "LEAF.TGA", reason).rgba, (Bytes{1, 2, 3, 77})) << reason;
+  EXPECT_TRUE(decode_image(tga, "leaf", reason).empty());
+}
+
+TEST(Images, OpacityGoesIntoAlpha) {
+  const Image colour{1, 1, {9, 8, 7, 255}};
+  const Image grey{2, 1, {255, 255, 255, 255, 40, 40, 40, 255}};
+  EXPECT_EQ(with_opacity(colour, grey).rgba, (Bytes{9, 8, 7, 255, 9, 8, 7, 40}));
+  const Image alpha{2, 1, {255, 255, 255, 3, 0, 0, 0, 200}};
+  EXPECT_EQ(with_opacity(colour, alpha).rgba, (Bytes{9, 8, 7, 3, 9, 8, 7, 200}));
+  EXPECT_EQ(with_opacity({}, grey).rgba, (Bytes{255, 255, 255, 255, 255, 255, 255, 40}));
 }
 
 TEST(Images, RefusesSizesThatNoFileOfItsLengthHolds) {

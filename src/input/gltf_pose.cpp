@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "input/gltf_pose.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "input/gltf_accessor.h"
+
+namespace leafhull {
+namespace {
+
+Transform product(const Transform& a, const std::array<float, 16>& columns) {
+  Transform result{};
+  for (std::size_t row = 0; row < 3; ++row) {
+    for (std::size_t column = 0; column < 4; ++column) {
+      for (std::size_t k = 0; k < 4; ++k) {
+        result[row][column] += a[row][k] * (k < 3 ? double{columns[4 * column + k]}
+                                                  : double{columns[4 * column + 3]});
+      }
+    }
+  }
+  return result;
+}
+
+double row_times(const std::array<double, 4>& row, Vec3f p) {
+  return row[0] * p.x + row[1] * p.y + row[2] * p.z + row[3];
+}
+
+Vec3d row_of(const Transform& m, int i) { return {m[i][0], m[i][1], m[i][2]}; }
+
+/// Normals go by the cofactors.
+Vec3f turned(const Transform& m, Vec3f normal) {
+  const Vec3d x = row_of(m, 0), y = row_of(m, 1), z = row_of(m, 2), n(normal);
+  return Vec3f(normalized(Vec3d(dot(cross(y, z), n), dot(cross(z, x), n), dot(cross(x, y), n))));
+}
+
+/// Adds the targets' displacements.
+void morph(GltfFile& file, const tinygltf::Primitive& source, const std::vector<double>& weights,
+           const std::string& place, Primitive& primitive) {
+  const std::size_t count = std::min(weights.size(), source.targets.size());
+  for (std::size_t i = 0; i < count; ++i) {
+    if (weights[i] == 0) continue;
+    const auto add = [&](const char* name, std::vector<Vec3f>& to) {
+      const auto target = source.targets[i].find(name);
+      if (target == source.targets[i].end() || to.empty()) return;
+      const std::string where = place + ", targets[" + std::to_string(i) + "]." + name;
+      const std::vector<Vec3f> moves = read_vec3(file, target->second, where);
+      if (moves.size() != to.size()) file.fail(where, "is not one for each vertex");
+      for (std::size_t v = 0; v < to.size(); ++v) {
+        to[v] = to[v] + moves[v] * static_cast<float>(weights[i]);
+      }
+    };
+    add("POSITION", primitive.positions);
+    add("NORMAL", primitive.normals);
+  }
+}
+
+using Influences = std::vector<std::array<float, 4>>;
+
+/// Poses every vertex by the mean of its joints.
+void bend(GltfFile& file, const tinygltf::Primitive& source, const std::vector<Transform>& joints,
+          const std::string& place, Primitive& primitive) {
+  const std::size_t count = primitive.positions.size();
+  std::vector<Transform> blends(count, Transform{});
+  std::vector<double> sums(count);
+  for (int set = 0;; ++set) {
+    const std::string number = std::to_string(set);
+    const auto joint = source.attributes.find("JOINTS_" + number);
+    const auto weight = source.attributes.find("WEIGHTS_" + number);
+    if (joint == source.attributes.end() || weight == source.attributes.end()) break;
+    const Influences which = read_vec4(file, joint->second, place + ", JOINTS_" + number);
+    const Influences how = read_vec4(file, weight->second, place + ", WEIGHTS_" + number);
+    if (which.size() != count || how.size() != count) {
+      file.fail(place, "its joints and weights are not one for each vertex");
+    }
+    for (std::size_t v = 0; v < count; ++v) {
+      for (std::size_t k = 0; k < 4; ++k) {
+        const double w = double{how[v][k]};
+        if (!(w > 0)) continue;
+        const auto number_of_joint = static_cast<std::size_t>(which[v][k]);
+        if (number_of_joint >= joints.size()) {
+          file.fail(place, "joint " + std::to_string(number_of_joint) + " is past its skin's " +
+                               std::to_string(joints.size()));
+        }
+        sums[v] += w;
+        for (std::size_t row = 0; row < 3; ++row) {
+          for (std::size_t column = 0; column < 4; ++column) {
+            blends[v][row][column] += w * joints[number_of_joint][row][column];
+          }
+        }
+      }
+    }
+  }
+  for (std::size_t v = 0; v < count; ++v) {
+    if (!(sums[v] > 0)) continue;
+    Transform blend = blends[v];
+    for (auto& row : blend) {
+      for (double& entry : row) entry /= sums[v];
+    }
+    const Vec3f p = primitive.positions[v];
+    primitive.positions[v] =
+        Vec3f(Vec3d(row_times(blend[0], p), row_times(blend[1], p), row_times(blend[2], p)));
+    if (!primitive.normals.empty()) primitive.normals[v] = turned(blend, primitive.normals[v]);
+  }
+}
+
+}  // namespace
+
+MeshUse use_of(const GltfFile& file, int index) {
+  const tinygltf::Node& node = file.model.nodes[index];
+  if (!is_index(node.mesh, file.model.meshes.size())) {
+    file.fail(place_of("nodes", index), "there is no " + place_of("meshes", node.mesh));
+  }
+  const tinygltf::Mesh& mesh = file.model.meshes[node.mesh];
+  MeshUse use{.mesh = node.mesh, .weights = node.weights.empty() ? mesh.weights : node.weights};
+  if (std::ranges::all_of(use.weights, [](double w) { return w == 0; })) use.weights.clear();
+  const bool has_joints = std::ranges::all_of(mesh.primitives, [](const auto& primitive) {
+    return primitive.attributes.contains("JOINTS_0");
+  });
+  if (node.skin < 0 || !has_joints) return use;  // joints that move nothing
+  if (!is_index(node.skin, file.model.skins.size())) {
+    file.fail(place_of("nodes", index), "there is no " + place_of("skins", node.skin));
+  }
+  use.skin = node.skin;
+  return use;
+}
+
+GltfPose pose_of(GltfFile& file, const MeshUse& use, const std::vector<Transform>& to_world) {
+  GltfPose pose{.joints = {}, .weights = use.weights};
+  if (use.skin < 0) return pose;
+  const tinygltf::Skin& skin = file.model.skins[use.skin];
+  const std::string place = place_of("skins", use.skin);
+  std::vector<std::array<float, 16>> inverse;
+  if (skin.inverseBindMatrices >= 0) {
+    inverse = read_mat4(file, skin.inverseBindMatrices, place + ", inverseBindMatrices");
+    if (inverse.size() < skin.joints.size()) {
+      file.fail(place, "has fewer inverse bind matrices than joints");
+    }
+  }
+  for (std::size_t i = 0; i < skin.joints.size(); ++i) {
+    if (!is_index(skin.joints[i], to_world.size())) {
+      file.fail(place, "there is no " + place_of("nodes", skin.joints[i]));
+    }
+    const Transform& joint = to_world[skin.joints[i]];
+    pose.joints.push_back(inverse.empty() ? joint : product(joint, inverse[i]));
+  }
+  return pose;
+}
+
+void pose_primitive(GltfFile& file, const tinygltf::Primitive& source, const GltfPose& pose,
+                    const std::string& place, Primitive& primitive) {
+  morph(file, source, pose.weights, place, primitive);
+  if (!pose.joints.empty()) bend(file, source, pose.joints, place, primitive);
+}
+
+}  // namespace leafhull
