@@ -125,8 +125,8 @@ struct LeafChoice {
   /// The leaves' mean linear colour by visible area: texture times factor times vertex colour. None
   /// where the file tells no colour.
   std::optional<Vec3f> colour;
-  bool is_tinted = false;           ///< it is the options' and every leaf's
-  LeafKind kind = LeafKind::broad;  ///< of most of them, as names say
+  bool is_tinted = false;            ///< it is the options' and every leaf's
+  LeafKind kind = LeafKind::broad;   ///< of most of them, as names say
   std::string told;                  ///< what was taken and what passed over, and why; one line
   std::vector<std::string> options;  ///< those that would take the likeliest candidates
   std::vector<std::string> warnings;

@@ -112,8 +112,8 @@ struct OptionRow {
   using Member =
       std::variant<bool Options::*, int Options::*, double Options::*,
                    std::optional<int> Options::*, std::optional<double> Options::*,
-                   std::optional<Up> Options::*, Style Options::*, std::optional<Method> Options::*, RadiusUnit Options::*,
-                   std::optional<PointSource> Options::*, Spread Options::*,
+                   std::optional<Up> Options::*, Style Options::*, std::optional<Method> Options::*,
+                   RadiusUnit Options::*, std::optional<PointSource> Options::*, Spread Options::*,
                    DensitySource Options::*, std::optional<Hollows> Options::*, Mesher Options::*,
                    std::optional<Preset> Options::*, std::vector<std::string> Options::*,
                    std::optional<TextureEllipse> Options::*, std::optional<LeafColour> Options::*,

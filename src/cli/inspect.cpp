@@ -143,7 +143,43 @@ void print_fact(std::string label, const std::string& value) {
   std::cout << label << value << '\n';
 }
 
-void print_leaves(const LeafSet& leaves, const LeafChoice& choice) {
+/// The unit that trees of this height are likely to be in; empty where it is metres.
+std::string likely_unit(double height) {
+  if (height > 8000) return "millimetres?";
+  if (height > 80) return "centimetres?";
+  if (height < 0.3) return "a hundredth of its size?";
+  return {};
+}
+
+/// Whether the crown lies beside the rest of the tree rather than above it.
+bool lies_on_its_side(const TreeModel& tree, const LeafSet& leaves) {
+  Box all = leaves.crown;
+  for (const Instance& instance : tree.instances) {
+    for (const Vec3f p : tree.primitives[instance.primitive].positions) {
+      const auto at = [&](const std::array<double, 4>& row) {
+        return row[0] * p.x + row[1] * p.y + row[2] * p.z + row[3];
+      };
+      const auto& [x, y, z] = instance.to_world;
+      all.include({at(x), at(y), at(z)});
+    }
+  }
+  const Vec3d away = leaves.crown.low + leaves.crown.high - all.low - all.high;
+  const double longest = all.longest_side();
+  constexpr double kBeside = 0.15, kLevel = 0.04;
+  return away.z > kBeside * longest && std::abs(away.y) < kLevel * longest;
+}
+
+void print_size(const TreeModel& tree, const LeafSet& leaves, std::optional<Up> up) {
+  const Vec3d size = leaves.crown.size();
+  std::string text =
+      number(size.x, 4) + " wide, " + number(size.y, 4) + " high, " + number(size.z, 4) + " deep";
+  if (const std::string unit = likely_unit(size.y); !unit.empty()) text += ": " + unit;
+  if (!up && lies_on_its_side(tree, leaves)) text += "; on its side? --up z stands it up";
+  print_fact("crown size", text);
+}
+
+void print_leaves(const TreeModel& tree, const LeafSet& leaves, const LeafChoice& choice,
+                  std::optional<Up> up) {
   const double crown_unit = leaves.crown.longest_side() / kCrownUnits;
   std::cout << '\n' << printable(choice.told) << '\n';
   print_fact("leaves", count(leaves.leaf_count));
@@ -158,6 +194,7 @@ void print_leaves(const LeafSet& leaves, const LeafChoice& choice) {
     print_fact("crown", text(leaves.crown.low) + "  to  " + text(leaves.crown.high));
     print_fact("stray leaves", count(leaves.stray_leaves));
   }
+  print_size(tree, leaves, up);
   print_fact("crown unit", number(crown_unit, 4) + " model units");
 }
 
@@ -241,7 +278,7 @@ void run_inspect(const Arguments& arguments) {
     print_json(arguments, choice, leaves, commands);
   } else {
     print_candidates(choice);
-    if (leaves) print_leaves(*leaves, choice);
+    if (leaves) print_leaves(tree, *leaves, choice, arguments.options.up);
     std::cout << "\nTry\n";
     for (const std::string& command : commands) std::cout << "  " << command << '\n';
   }
@@ -258,7 +295,8 @@ Verb inspect_verb() {
               "  leafhull inspect birch.glb\n"
               "  leafhull inspect birch.glb --leaves '*twig*' --json\n",
           .takes_tree = true,
-          .flags = all_of({option_flags("Input"), option_flags("Leaves"), json_flags(), console_flags(), help_flags()}),
+          .flags = all_of({option_flags("Input"), option_flags("Leaves"), json_flags(),
+                           console_flags(), help_flags()}),
           .run = run_inspect};
 }
 

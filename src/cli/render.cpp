@@ -297,7 +297,7 @@ Verb render_verb() {
           "  leafhull render birch.glb --figure17 -o figure17.png\n",
       .takes_tree = true,
       .operand = "TREE|SHAPE|FIELD",
-      .operand_help = "a .glb, .gltf or .obj file; a density as .vdb",
+      .operand_help = "a .glb, .gltf, .fbx or .obj file; a density as .vdb",
       .flags =
           all_of({render_flags(), option_flags(), device_flags(), console_flags(), help_flags()}),
       .run = run_render};

@@ -96,7 +96,7 @@ std::vector<Flag> picture_flags() {
        .group = "Picture",
        .range = "tree, shape",
        .default_value = "by the names in the file",
-       .help = "whether a .glb, .gltf or .obj file is a tree, or a shape from extract",
+       .help = "whether a .glb, .gltf, .fbx or .obj file is a tree, or a shape from extract",
        .set = [](Arguments& a,
                  const std::string& text) { a.is_shape = choice("--as", text, kKinds) == 1; }},
       {.spelling = "--figure17",

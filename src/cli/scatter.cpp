@@ -177,7 +177,7 @@ Verb scatter_verb() {
               "-o hills.csv\n",
           .takes_trees = true,
           .operand = "TREE...",
-          .operand_help = "one or more .glb, .gltf or .obj files, each equally often",
+          .operand_help = "one or more .glb, .gltf, .fbx or .obj files, each equally often",
           .flags = all_of({scatter_flags(), leaves_flag(), console_flags(), help_flags()}),
           .run = run_scatter};
 }

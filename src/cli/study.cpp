@@ -191,8 +191,8 @@ Verb study_verb() {
           "  leafhull study birch.glb ash.glb --leaves '*leaf*' -o study/\n",
       .takes_trees = true,
       .operand = "TREE...",
-      .flags = all_of({option_flags("Input"), option_flags("Leaves"), study_output_flags(), device_flags(),
-                       console_flags(), help_flags()}),
+      .flags = all_of({option_flags("Input"), option_flags("Leaves"), study_output_flags(),
+                       device_flags(), console_flags(), help_flags()}),
       .run = run_study};
 }
 

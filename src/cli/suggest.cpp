@@ -130,8 +130,9 @@ Verb suggest_verb() {
               "  leafhull suggest birch.glb\n"
               "  leafhull suggest birch.glb --preset draft -o strip.png --json\n",
           .takes_tree = true,
-          .flags = all_of({option_flags("Input"), option_flags("Leaves"), option_flags("Resolution"), suggest_flags(),
-                           device_flags(), json_flags(), console_flags(), help_flags()}),
+          .flags = all_of({option_flags("Input"), option_flags("Leaves"),
+                           option_flags("Resolution"), suggest_flags(), device_flags(),
+                           json_flags(), console_flags(), help_flags()}),
           .run = run_suggest};
 }
 

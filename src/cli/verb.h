@@ -14,7 +14,7 @@ struct Verb {
   std::string_view name, summary, about, examples;
   bool takes_tree = false;
   bool takes_trees = false;  ///< one or more
-  std::string_view operand = "TREE", operand_help = "a .glb, .gltf or .obj file",
+  std::string_view operand = "TREE", operand_help = "a .glb, .gltf, .fbx or .obj file",
                    operand_example = "tree.glb";
   bool hidden = false;
   std::vector<Flag> flags;

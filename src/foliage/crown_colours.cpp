@@ -14,8 +14,8 @@ namespace leafhull {
 namespace {
 
 constexpr std::size_t kLooksAtImage = 200'000;  // of an image, a primitive
-constexpr double kMostCells = 64;          // along an axis
-constexpr int kMostPlaces = 16;            // along a triangle's side
+constexpr double kMostCells = 64;               // along an axis
+constexpr int kMostPlaces = 16;                 // along a triangle's side
 constexpr std::size_t kMostTones = 4;
 /// In the plane of hues of Oklab: nearer colours are one.
 constexpr double kOneTone = 0.05;
@@ -158,7 +158,8 @@ void CrownColours::tell_tones() {
     }
     tones = std::move(more);
   }
-  std::ranges::stable_sort(tones, [](const Weighed& a, const Weighed& b) { return a.area > b.area; });
+  std::ranges::stable_sort(tones,
+                           [](const Weighed& a, const Weighed& b) { return a.area > b.area; });
   for (const Weighed& tone : tones) tones_.push_back(shown_oklab(tone.lab));
 }
 

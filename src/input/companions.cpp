@@ -68,8 +68,7 @@ std::optional<fs::path> entry_of(const fs::path& folder, const std::string& name
 
 std::optional<fs::path> file_of(fs::path folder, std::span<const std::string> names) {
   for (const std::string& name : names) {
-    const std::optional<fs::path> entry =
-        entry_of(folder.empty() ? fs::path(".") : folder, name);
+    const std::optional<fs::path> entry = entry_of(folder.empty() ? fs::path(".") : folder, name);
     if (!entry) return std::nullopt;
     folder = *entry;
   }
@@ -106,8 +105,9 @@ Companions::Found Companions::find(std::string_view written) const {
   const fs::path as_written = tree_file_->parent_path() / path;
   if ((!outside || allow_outside_) && is_file(as_written)) return {as_written, {}};
   if (const auto found = beside(path)) {
-    return {*found, in_quotes(written) + (outside ? " is taken from the file's own folder: "
-                                                  : " is not there; taken instead is ") +
+    return {*found, in_quotes(written) +
+                        (outside ? " is taken from the file's own folder: "
+                                 : " is not there; taken instead is ") +
                         in_quotes(found->string())};
   }
   if (outside && !allow_outside_) {

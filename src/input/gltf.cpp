@@ -8,8 +8,7 @@
 
 namespace leafhull {
 
-TreeModel read_gltf(ByteSpan bytes, const std::string& name,
-                    const Companions& companions) {
+TreeModel read_gltf(ByteSpan bytes, const std::string& name, const Companions& companions) {
   std::vector<Instance> instances;
   const auto place = [&](const GltfMeshes& meshes, const PlacedMesh& placed) {
     if (!is_finite(placed.to_world)) {

@@ -13,7 +13,6 @@ namespace leafhull {
 /// @param name   as messages call the file.
 /// @param companions external buffers and images.
 /// @throws Error input.
-TreeModel read_gltf(ByteSpan bytes, const std::string& name,
-                    const Companions& companions);
+TreeModel read_gltf(ByteSpan bytes, const std::string& name, const Companions& companions);
 
 }  // namespace leafhull

@@ -30,8 +30,7 @@ std::vector<Vec3f> read_vec3(GltfFile& file, int accessor, const std::string& us
 std::vector<std::array<float, 4>> read_vec4(GltfFile& file, int accessor, const std::string& user);
 
 /// Column by column.
-std::vector<std::array<float, 16>> read_mat4(GltfFile& file, int accessor,
-                                             const std::string& user);
+std::vector<std::array<float, 16>> read_mat4(GltfFile& file, int accessor, const std::string& user);
 
 /// The red, green and blue of colours, which may have an alpha too.
 std::vector<Vec3f> read_colors(GltfFile& file, int accessor, const std::string& user);

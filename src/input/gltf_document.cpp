@@ -19,20 +19,36 @@ constexpr int kDeepestNesting = 64;
 constexpr std::int64_t kLargestOffset = std::int64_t{1} << 53;  // exact in every JSON reader
 
 constexpr std::array kReadExtensions = {
-    "EXT_mesh_gpu_instancing",    "EXT_meshopt_compression", "EXT_texture_webp",
-    "KHR_draco_mesh_compression", "KHR_mesh_quantization",   "KHR_materials_pbrSpecularGlossiness",
-    "KHR_node_visibility",        "KHR_texture_basisu",      "KHR_texture_transform",
-    "MSFT_lod"};
+    "EXT_mesh_gpu_instancing", "EXT_meshopt_compression",
+    "EXT_texture_webp",        "KHR_draco_mesh_compression",
+    "KHR_mesh_quantization",   "KHR_materials_pbrSpecularGlossiness",
+    "KHR_node_visibility",     "KHR_texture_basisu",
+    "KHR_texture_transform",   "MSFT_lod"};
 
 constexpr std::array kHarmlessExtensions = {
     "ADOBE_materials_", "EXT_lights_", "EXT_texture_avif", "KHR_lights_",
     "KHR_materials_",   "KHR_xmp",     "MSFT_texture_dds"};
 
-constexpr std::array kWholeNumbers = {
-    "buffer",        "bufferView", "byteLength", "byteOffset", "byteStride", "camera",
-    "componentType", "count",      "index",      "indices",    "inverseBindMatrices",
-    "mesh",          "material",   "mode",       "sampler",    "scene",      "skeleton",
-    "skin",          "source",     "texCoord"};
+constexpr std::array kWholeNumbers = {"buffer",
+                                      "bufferView",
+                                      "byteLength",
+                                      "byteOffset",
+                                      "byteStride",
+                                      "camera",
+                                      "componentType",
+                                      "count",
+                                      "index",
+                                      "indices",
+                                      "inverseBindMatrices",
+                                      "mesh",
+                                      "material",
+                                      "mode",
+                                      "sampler",
+                                      "scene",
+                                      "skeleton",
+                                      "skin",
+                                      "source",
+                                      "texCoord"};
 
 constexpr std::array kLists = {"accessors", "bufferViews", "buffers", "cameras",
                                "images",    "materials",   "meshes",  "nodes",

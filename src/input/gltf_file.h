@@ -25,10 +25,10 @@ struct GltfCamera {
 /// An opened glTF file: its document as tinygltf's types, and its bytes. The document is well typed
 /// and its whole numbers fit an int; where they point to is checked by those who follow them.
 struct GltfFile {
-  std::string name;                 ///< as messages call it
-  Companions companions;            ///< external buffers and images
-  std::vector<std::string> notes;   ///< what was guessed and what passed over
-  tinygltf::Model model;            ///< its buffers and images hold no data
+  std::string name;                ///< as messages call it
+  Companions companions;           ///< external buffers and images
+  std::vector<std::string> notes;  ///< what was guessed and what passed over
+  tinygltf::Model model;           ///< its buffers and images hold no data
   std::vector<GltfCamera> cameras;
   std::vector<ByteSpan> buffers;     ///< as many as the document has; empty for a meshopt fallback
   std::vector<Bytes> owned_buffers;  ///< what `buffers` refers to outside the file itself

@@ -10,8 +10,7 @@
 
 namespace leafhull {
 
-GltfMeshes read_gltf_meshes(ByteSpan bytes, const std::string& name,
-                            const Companions& companions,
+GltfMeshes read_gltf_meshes(ByteSpan bytes, const std::string& name, const Companions& companions,
                             const MeshVisitor& visit, const MeshVisitor& survey) {
   GltfFile file = open_gltf(bytes, name, companions);
   GltfMeshes meshes;

@@ -33,8 +33,8 @@ bool is_finite(const Transform& transform);
 /// The meshes that the default scene places, each once.
 struct GltfMeshes {
   TreeModel tree;                                        ///< without instances
-  std::map<int, std::vector<std::uint32_t>> primitives;  ///< of the tree by the mesh's number, in file
-                                                         ///< order; posed ones have their own
+  std::map<int, std::vector<std::uint32_t>> primitives;  ///< of the tree by the mesh's number, in
+                                                         ///< file order; posed ones have their own
 };
 
 using MeshVisitor = std::function<void(const GltfMeshes& meshes, const PlacedMesh& placed)>;
@@ -43,8 +43,7 @@ using MeshVisitor = std::function<void(const GltfMeshes& meshes, const PlacedMes
 /// in depth-first order. Arguments as of read_gltf.
 /// @param survey where it is given, is shown all of them first.
 /// @throws Error input.
-GltfMeshes read_gltf_meshes(ByteSpan bytes, const std::string& name,
-                            const Companions& companions,
+GltfMeshes read_gltf_meshes(ByteSpan bytes, const std::string& name, const Companions& companions,
                             const MeshVisitor& visit, const MeshVisitor& survey = {});
 
 }  // namespace leafhull

@@ -207,8 +207,7 @@ std::map<MeshUse, int> mesh_uses(GltfFile& file) {
   });
   if (hidden > 0) {
     file.notes.push_back(std::to_string(hidden) +
-                         (hidden == 1 ? " hidden mesh is" : " hidden meshes are") +
-                         " passed over");
+                         (hidden == 1 ? " hidden mesh is" : " hidden meshes are") + " passed over");
   }
   return uses;
 }

@@ -15,8 +15,8 @@ Transform product(const Transform& a, const std::array<float, 16>& columns) {
   for (std::size_t row = 0; row < 3; ++row) {
     for (std::size_t column = 0; column < 4; ++column) {
       for (std::size_t k = 0; k < 4; ++k) {
-        result[row][column] += a[row][k] * (k < 3 ? double{columns[4 * column + k]}
-                                                  : double{columns[4 * column + 3]});
+        result[row][column] +=
+            a[row][k] * (k < 3 ? double{columns[4 * column + k]} : double{columns[4 * column + 3]});
       }
     }
   }

@@ -141,8 +141,7 @@ Image with_opacity(const Image& colour, Image opacity) {
   const bool in_alpha = has_transparency(opacity);
   for (int y = 0; y < opacity.height; ++y) {
     for (int x = 0; x < opacity.width; ++x) {
-      std::uint8_t* pixel =
-          &opacity.rgba[4 * (static_cast<std::size_t>(y) * opacity.width + x)];
+      std::uint8_t* pixel = &opacity.rgba[4 * (static_cast<std::size_t>(y) * opacity.width + x)];
       if (!in_alpha) pixel[3] = pixel[0];
       if (colour.empty()) {
         std::fill(pixel, pixel + 3, 255);

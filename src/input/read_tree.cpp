@@ -4,6 +4,7 @@
 
 #include "input/fbx.h"
 #include "input/file_bytes.h"
+#include "input/foreign.h"
 #include "input/gltf.h"
 #include "input/input_error.h"
 #include "input/obj.h"
@@ -24,13 +25,13 @@ Bytes read_tree_file(const std::filesystem::path& path) try {
   return read_file(path, Pipes::read);
 } catch (const FileError& error) {
   input_error(path.string(), "", std::string("cannot be read: ") + error.what(),
-              "Give the path of a .glb, .gltf or .obj file that you may read.");
+              "Give the path of a .glb, .gltf, .fbx or .obj file that you may read.");
 }
 
 }  // namespace
 
 TreeModel read_tree(const std::filesystem::path& path, const ReadOptions& options) {
-  constexpr std::string_view kFormats = "Give a .glb, .gltf or .obj file.";
+  constexpr std::string_view kFormats = "Give a .glb, .gltf, .fbx or .obj file.";
   const Bytes bytes = read_tree_file(path);
   const std::string extension = lower_extension(path);
   if (bytes.empty()) input_error(path.string(), "", "is empty", kFormats);
@@ -44,10 +45,17 @@ TreeModel read_tree(const std::filesystem::path& path, const ReadOptions& option
                     options.up ? Axes::as_they_are : Axes::as_it_says);
   } else if (extension == ".obj") {
     tree = read_obj(bytes, path.string(), companions);
-  } else if (extension == ".glb" || extension == ".gltf") {
-    input_error(path.string(), "", "is not a glTF file in spite of its name", kFormats);
+  } else if (extension == ".glb" || extension == ".gltf" || extension == ".fbx") {
+    input_error(path.string(), "",
+                std::string("is not ") + (extension == ".fbx" ? "an FBX" : "a glTF") +
+                    " file in spite of its name",
+                kFormats);
   } else {
-    input_error(path.string(), "", "is neither a glTF nor an OBJ file", kFormats);
+    if (const auto foreign = foreign_format(bytes, path)) {
+      input_error(path.string(), "", "is " + foreign->name + ", which is not read",
+                  foreign->remedy);
+    }
+    input_error(path.string(), "", "is no glTF, FBX or OBJ file", kFormats);
   }
   tree.path = path;
   if (options.up == Up::z) {

@@ -53,11 +53,12 @@ Json document(const MeshHead& mesh) {
                        {"indices", 2},
                        {"material", 0},
                        {"mode", 4}};
-  const Json material{{"name", kLeafMaterial},
-                      {"pbrMetallicRoughness",
-                       {{"baseColorFactor", leaf_base_color(mesh.colour ? *mesh.colour : kLeafGreen)},
-                        {"metallicFactor", 0.0},
-                        {"roughnessFactor", 1.0}}}};
+  const Json material{
+      {"name", kLeafMaterial},
+      {"pbrMetallicRoughness",
+       {{"baseColorFactor", leaf_base_color(mesh.colour ? *mesh.colour : kLeafGreen)},
+        {"metallicFactor", 0.0},
+        {"roughnessFactor", 1.0}}}};
   const Json vertex_view{{"buffer", 0},
                          {"byteLength", mesh.vertices * kVertexBytes},
                          {"byteStride", kVertexBytes},

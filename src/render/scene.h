@@ -16,7 +16,7 @@ struct Hit {
   Vec3f position;  ///< on the smooth surface the normals describe, not to be shaded by its facets
   Vec3f normal;    ///< interpolated, unit, on the side of face_normal
   Vec3f face_normal;  ///< of the triangle, unit, on the ray's side
-  Vec3f color;         ///< linear
+  Vec3f color;        ///< linear
   const Surface* surface;
   float distance;  ///< in lengths of the ray's direction
 };

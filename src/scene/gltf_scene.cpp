@@ -143,8 +143,7 @@ void strip(TreeModel& tree, const std::vector<SceneModel>& models) {
 
 }  // namespace
 
-Scene read_gltf_scene(const fs::path& file, const LeafOptions& leaves,
-                      const ReadOptions& reading) {
+Scene read_gltf_scene(const fs::path& file, const LeafOptions& leaves, const ReadOptions& reading) {
   SceneBuilder builder(file);
   TreeCollector trees(builder, leaves);
   auto tree = std::make_shared<TreeModel>();
@@ -155,13 +154,12 @@ Scene read_gltf_scene(const fs::path& file, const LeafOptions& leaves,
   };
   {
     const Bytes bytes = read_scene_file(file);
-    *tree = read_gltf_meshes(
-                bytes, file.string(), Companions(file, reading.allow_outside),
-                [&](const auto& meshes, const auto& placed) { trees.take(meshes, upright(placed)); },
-                [&](const auto& meshes, const auto& placed) {
-                  trees.survey(meshes, upright(placed));
-                })
-                .tree;
+    *tree =
+        read_gltf_meshes(
+            bytes, file.string(), Companions(file, reading.allow_outside),
+            [&](const auto& meshes, const auto& placed) { trees.take(meshes, upright(placed)); },
+            [&](const auto& meshes, const auto& placed) { trees.survey(meshes, upright(placed)); })
+            .tree;
   }
   tree->path = file;
   for (const std::string& warning : tree->warnings) builder.warn(warning);

@@ -43,8 +43,9 @@ struct Dab {
 
 float norm(Vec2f v) { return std::hypot(v.x, v.y); }
 
-/// Of each mark: how wide its dabs are, for their length (leaves on edge are not hairs), how much longer than the brush, how many there
-/// are, how far apart they point, and how far the leaves of a spray turn from its card; radians.
+/// Of each mark: how wide its dabs are, for their length (leaves on edge are not hairs), how much
+/// longer than the brush, how many there are, how far apart they point, and how far the leaves of a
+/// spray turn from its card; radians.
 struct Shape {
   float least_width, most_width, length;
   int count;
@@ -54,9 +55,19 @@ struct Shape {
 Shape shape_of(Mark mark) {
   switch (mark) {
     case Mark::tuft:
-      return {.least_width = 0.13f, .most_width = 0.13f, .length = 1.3f, .count = 3, .fan = 0.42f, .turn = 0.35f};
+      return {.least_width = 0.13f,
+              .most_width = 0.13f,
+              .length = 1.3f,
+              .count = 3,
+              .fan = 0.42f,
+              .turn = 0.35f};
     case Mark::blade:
-      return {.least_width = 0.2f, .most_width = 0.2f, .length = 2.2f, .count = 1, .fan = 0, .turn = 0.3f};
+      return {.least_width = 0.2f,
+              .most_width = 0.2f,
+              .length = 2.2f,
+              .count = 1,
+              .fan = 0,
+              .turn = 0.3f};
     case Mark::dab:
       break;
   }

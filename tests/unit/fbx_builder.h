@@ -14,8 +14,8 @@ namespace leafhull::test {
 
 /// A record of FBX: "Name: values { children }".
 struct FbxRecord {
-  using Value = std::variant<std::int32_t, std::int64_t, double, std::string,
-                             std::vector<double>, std::vector<std::int32_t>>;
+  using Value = std::variant<std::int32_t, std::int64_t, double, std::string, std::vector<double>,
+                             std::vector<std::int32_t>>;
 
   FbxRecord(std::string of_name, std::vector<Value> with = {}, std::vector<FbxRecord> within = {})
       : name(std::move(of_name)), values(std::move(with)), children(std::move(within)) {}
@@ -57,8 +57,8 @@ struct FbxBuilder {
     connections.emplace_back("C", std::vector<FbxRecord::Value>{std::string("OO"), child, parent});
   }
   void connect(std::int64_t child, std::int64_t parent, const std::string& property_name) {
-    connections.emplace_back("C", std::vector<FbxRecord::Value>{std::string("OP"), child, parent,
-                                                                property_name});
+    connections.emplace_back(
+        "C", std::vector<FbxRecord::Value>{std::string("OP"), child, parent, property_name});
   }
 
   std::vector<FbxRecord> document() const {

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "foliage/crown_colours.h"
-
 #include <gtest/gtest.h>
 
 #include "colour/colour.h"
+#include "foliage/crown_colours.h"
 #include "foliage_models.h"
 
 namespace leafhull {
@@ -16,8 +15,9 @@ constexpr double kMass = 0.4;
 
 /// Two balls of cards side by side, as one primitive.
 TreeModel pair_of(Vec3f left, Vec3f right) {
-  return model_of({{joined(coloured(cards({-2, 0, 0}, 1), left), coloured(cards({2, 0, 0}, 1), right)),
-                    {.name = "leaves"}}});
+  return model_of(
+      {{joined(coloured(cards({-2, 0, 0}, 1), left), coloured(cards({2, 0, 0}, 1), right)),
+        {.name = "leaves"}}});
 }
 
 std::optional<CrownColours> colours_of(const TreeModel& tree, const LeafOptions& options = {}) {
@@ -53,8 +53,8 @@ TEST(CrownColours, AreFourAtMost) {
   Primitive& leaves = tree.primitives[0];
   for (const Vec3f p : leaves.positions) {
     const auto part = static_cast<int>((std::atan2(p.z, p.x) / M_PI + 1) * 2.999);
-    constexpr Vec3f kWheel[] = {{0.5f, 0, 0}, {0.5f, 0.4f, 0}, {0, 0.4f, 0},
-                                {0, 0.4f, 0.5f}, {0, 0, 0.5f}, {0.5f, 0, 0.5f}};
+    constexpr Vec3f kWheel[] = {{0.5f, 0, 0},    {0.5f, 0.4f, 0}, {0, 0.4f, 0},
+                                {0, 0.4f, 0.5f}, {0, 0, 0.5f},    {0.5f, 0, 0.5f}};
     leaves.colors.push_back(kWheel[part]);
   }
   const auto colours = colours_of(tree);

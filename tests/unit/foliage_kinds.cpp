@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "foliage/kinds.h"
-
 #include <gtest/gtest.h>
 
+#include "foliage/kinds.h"
 #include "foliage_models.h"
 
 namespace leafhull {
@@ -37,8 +36,8 @@ TEST(Kinds, AreThoseOfMostOfTheLeaves) {
   tree.nodes.push_back({"Palm_03"});
   tree.nodes[1].parent = 2;
   EXPECT_EQ(kind(tree), LeafKind::frond) << "a node's name says more than the file's";
-  tree = model_of({{cards({0, 4, 0}, 1, 100), leaves, "palm"},
-                   {cards({0, 4, 0}, 2, 300), leaves, "larch"}});
+  tree = model_of(
+      {{cards({0, 4, 0}, 1, 100), leaves, "palm"}, {cards({0, 4, 0}, 2, 300), leaves, "larch"}});
   EXPECT_EQ(kind(tree), LeafKind::needle);
 }
 

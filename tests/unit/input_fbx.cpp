@@ -27,7 +27,7 @@ TreeModel read_fbx_text(const std::string& text, const Companions& companions = 
 }
 
 FbxRecord fbx_layer(const std::string& kind, const std::string& values, std::vector<double> data,
-                const std::string& mapping = "ByPolygonVertex") {
+                    const std::string& mapping = "ByPolygonVertex") {
   return {"LayerElement" + kind,
           {0},
           {{"Version", {101}},
@@ -38,30 +38,30 @@ FbxRecord fbx_layer(const std::string& kind, const std::string& values, std::vec
 }
 
 /// A square of side 2 in the plane of x and y about the origin, seen from z, one quad.
-FbxRecord& add_fbx_square(FbxBuilder& file, std::int64_t id = kFbxMesh, const std::string& name = "Square") {
-  return file.object(
-      id, "Geometry", name, "Mesh",
-      {{"Vertices", {std::vector<double>{-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0}}},
-       {"PolygonVertexIndex", {std::vector<std::int32_t>{0, 1, 2, -4}}},
-       fbx_layer("UV", "UV", {0, 0, 1, 0, 1, 1, 0, 1}),
-       fbx_layer("Normal", "Normals", {0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1})});
+FbxRecord& add_fbx_square(FbxBuilder& file, std::int64_t id = kFbxMesh,
+                          const std::string& name = "Square") {
+  return file.object(id, "Geometry", name, "Mesh",
+                     {{"Vertices", {std::vector<double>{-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0}}},
+                      {"PolygonVertexIndex", {std::vector<std::int32_t>{0, 1, 2, -4}}},
+                      fbx_layer("UV", "UV", {0, 0, 1, 0, 1, 1, 0, 1}),
+                      fbx_layer("Normal", "Normals", {0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1})});
 }
 
 void add_fbx_model(FbxBuilder& file, std::int64_t id, const std::string& name,
-               std::vector<FbxRecord> list = {}, std::int64_t parent = 0) {
+                   std::vector<FbxRecord> list = {}, std::int64_t parent = 0) {
   file.object(id, "Model", name, "Mesh", {properties(std::move(list))});
   file.connect(id, parent);
 }
 
 void add_fbx_material(FbxBuilder& file, std::int64_t id, const std::string& name,
-                  std::vector<FbxRecord> list = {}) {
+                      std::vector<FbxRecord> list = {}) {
   file.object(id, "Material", name, "",
               {{"ShadingModel", {std::string("phong")}}, properties(std::move(list))});
   file.connect(id, kFbxModel);
 }
 
 void add_fbx_texture(FbxBuilder& file, std::int64_t id, const std::string& path,
-                 const std::string& property_name) {
+                     const std::string& property_name) {
   file.object(id, "Texture", "map" + std::to_string(id), "",
               {{"Type", {std::string("TextureVideoClip")}},
                {"FileName", {path}},
@@ -98,7 +98,9 @@ Box fbx_box(const std::vector<Vec3d>& points) {
   return box;
 }
 
-void expect_fbx_near(Vec3d a, Vec3d b) { EXPECT_LT(length(a - b), 1e-6) << a.x << ' ' << a.y << ' ' << a.z; }
+void expect_fbx_near(Vec3d a, Vec3d b) {
+  EXPECT_LT(length(a - b), 1e-6) << a.x << ' ' << a.y << ' ' << a.z;
+}
 
 std::vector<std::uint8_t> two_texels(std::uint8_t red, std::uint8_t alpha) {
   return {red, 0, 0, 255, red, 0, 0, alpha};
@@ -107,7 +109,8 @@ std::vector<std::uint8_t> two_texels(std::uint8_t red, std::uint8_t alpha) {
 void write_two_texels(const std::filesystem::path& file, const std::vector<std::uint8_t>& rgba) {
   const std::vector<std::uint8_t> bytes = png(2, 1, rgba);
   std::ofstream(file, std::ios::binary)
-      .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+      .write(reinterpret_cast<const char*>(bytes.data()),
+             static_cast<std::streamsize>(bytes.size()));
 }
 
 TEST(Fbx, IsTheSameAsTextAndBinary) {
@@ -141,15 +144,18 @@ TEST(Fbx, IsInMetresAndStandsUp) {
   FbxBuilder file = fbx_square();
   expect_fbx_near(fbx_box(fbx_world(read_fbx_text(file.ascii()))).high, {1, 1, 0});
   file.settings = {property("UnitScaleFactor", "double", {1}),  // centimetres
-                   property("UpAxis", "int", {2}), property("UpAxisSign", "int", {1}),
-                   property("FrontAxis", "int", {1}), property("FrontAxisSign", "int", {-1}),
-                   property("CoordAxis", "int", {0}), property("CoordAxisSign", "int", {1})};
+                   property("UpAxis", "int", {2}),
+                   property("UpAxisSign", "int", {1}),
+                   property("FrontAxis", "int", {1}),
+                   property("FrontAxisSign", "int", {-1}),
+                   property("CoordAxis", "int", {0}),
+                   property("CoordAxisSign", "int", {1})};
   // Its y is the world's -z.
   const Box box = fbx_box(fbx_world(read_fbx_text(file.ascii())));
   expect_fbx_near(box.low, {-0.01, 0, -0.01});
   expect_fbx_near(box.high, {0.01, 0, 0.01});
   expect_fbx_near(fbx_box(fbx_world(read_fbx_text(file.ascii(), {}, Axes::as_they_are))).high,
-              {0.01, 0.01, 0});
+                  {0.01, 0.01, 0});
 }
 
 TEST(Fbx, UpOverridesWhatItSays) {
@@ -165,11 +171,11 @@ TEST(Fbx, TransformsGeometryAndPivots) {
   file.settings = {property("UnitScaleFactor", "double", {100})};
   add_fbx_square(file);
   add_fbx_model(file, kFbxModel, "Leaf",
-            {property("Lcl Translation", "Lcl Translation", {10, 0, 0}),
-             property("Lcl Rotation", "Lcl Rotation", {0, 0, 90}),
-             property("RotationPivot", "Vector3D", {1, 0, 0}),
-             property("GeometricTranslation", "Vector3D", {0, 0, 5}),
-             property("GeometricScaling", "Vector3D", {2, 1, 1})});
+                {property("Lcl Translation", "Lcl Translation", {10, 0, 0}),
+                 property("Lcl Rotation", "Lcl Rotation", {0, 0, 90}),
+                 property("RotationPivot", "Vector3D", {1, 0, 0}),
+                 property("GeometricTranslation", "Vector3D", {0, 0, 5}),
+                 property("GeometricScaling", "Vector3D", {2, 1, 1})});
   file.connect(kFbxMesh, kFbxModel);
   // (x, y) -> (2x, y), then about (1, 0) by a quarter of a turn, then 10 to the right.
   const Box box = fbx_box(fbx_world(read_fbx_text(file.binary())));
@@ -180,7 +186,7 @@ TEST(Fbx, TransformsGeometryAndPivots) {
 TEST(Fbx, InstancesShareAPrimitive) {
   FbxBuilder file = fbx_square();
   add_fbx_model(file, kFbxModel + 1, "Other",
-            {property("Lcl Translation", "Lcl Translation", {0, 7, 0})});
+                {property("Lcl Translation", "Lcl Translation", {0, 7, 0})});
   file.connect(kFbxMesh, kFbxModel + 1);
   const TreeModel tree = read_fbx_text(file.ascii());
   EXPECT_EQ(tree.primitives.size(), 1u);
@@ -190,18 +196,21 @@ TEST(Fbx, InstancesShareAPrimitive) {
 
 TEST(Fbx, SeveralMaterialsAMeshAreSeveralPrimitives) {
   FbxBuilder file;
-  file.object(kFbxMesh, "Geometry", "Tree", "Mesh",
-              {{"Vertices", {std::vector<double>{0, 0, 0, 1, 0, 0, 0, 1, 0, 5, 0, 0, 6, 0, 0, 5, 1, 0}}},
-               {"PolygonVertexIndex", {std::vector<std::int32_t>{0, 1, -3, 3, 4, -6}}},
-               {"LayerElementMaterial",
-                {0},
-                {{"MappingInformationType", {std::string("ByPolygon")}},
-                 {"ReferenceInformationType", {std::string("IndexToDirect")}},
-                 {"Materials", {std::vector<std::int32_t>{0, 1}}}}}});
+  file.object(
+      kFbxMesh, "Geometry", "Tree", "Mesh",
+      {{"Vertices", {std::vector<double>{0, 0, 0, 1, 0, 0, 0, 1, 0, 5, 0, 0, 6, 0, 0, 5, 1, 0}}},
+       {"PolygonVertexIndex", {std::vector<std::int32_t>{0, 1, -3, 3, 4, -6}}},
+       {"LayerElementMaterial",
+        {0},
+        {{"MappingInformationType", {std::string("ByPolygon")}},
+         {"ReferenceInformationType", {std::string("IndexToDirect")}},
+         {"Materials", {std::vector<std::int32_t>{0, 1}}}}}});
   add_fbx_model(file, kFbxModel, "Tree");
   file.connect(kFbxMesh, kFbxModel);
-  add_fbx_material(file, kFbxMaterial, "Bark", {property("DiffuseColor", "Color", {0.2, 0.1, 0.05})});
-  add_fbx_material(file, kFbxMaterial + 1, "Leaf", {property("DiffuseColor", "Color", {0.1, 0.3, 0.05})});
+  add_fbx_material(file, kFbxMaterial, "Bark",
+                   {property("DiffuseColor", "Color", {0.2, 0.1, 0.05})});
+  add_fbx_material(file, kFbxMaterial + 1, "Leaf",
+                   {property("DiffuseColor", "Color", {0.1, 0.3, 0.05})});
   for (const std::string& text : {file.ascii(), file.binary()}) {
     const TreeModel tree = read_fbx_text(text);
     ASSERT_EQ(tree.primitives.size(), 2u);
@@ -219,10 +228,10 @@ TEST(Fbx, TexturesOfOtherMachinesAreFoundBesideIt) {
   std::filesystem::create_directory(folder / "textures");
   write_two_texels(folder.path() / "textures" / "leaf.png", two_texels(200, 0));
   FbxBuilder file = fbx_square();
-  add_fbx_material(file, kFbxMaterial, "Leaf", {property("DiffuseColor", "Color", {0.8, 0.8, 0.8})});
+  add_fbx_material(file, kFbxMaterial, "Leaf",
+                   {property("DiffuseColor", "Color", {0.8, 0.8, 0.8})});
   add_fbx_texture(file, kFbxTexture, "C:\\\\art\\\\LEAF.png", "DiffuseColor");
-  const TreeModel tree =
-      read_fbx_text(file.ascii(), Companions(folder / "t.fbx", false));
+  const TreeModel tree = read_fbx_text(file.ascii(), Companions(folder / "t.fbx", false));
   ASSERT_EQ(tree.images.size(), 1u);
   EXPECT_EQ(tree.images[0].width, 2);
   const Material& leaf = tree.materials[0];
@@ -344,7 +353,8 @@ TEST(Fbx, ThatIsDamagedIsAnError) {
   FbxBuilder no_mesh;
   expect_input_error(no_mesh.ascii());
   FbxBuilder infinite = fbx_square();
-  infinite.objects[0].children[0].values = {std::vector<double>{1e300, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0}};
+  infinite.objects[0].children[0].values = {
+      std::vector<double>{1e300, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0}};
   expect_input_error(infinite.binary());
 }
 

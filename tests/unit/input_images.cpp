@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
-
 #include <webp/encode.h>
 
 #include <fstream>
@@ -84,8 +83,7 @@ TEST(Images, WarnsOfMissingAndBrokenTextures) {
 
 Bytes webp(int width, int height, const Bytes& rgba) {
   std::uint8_t* encoded = nullptr;
-  const std::size_t size =
-      WebPEncodeLosslessRGBA(rgba.data(), width, height, 4 * width, &encoded);
+  const std::size_t size = WebPEncodeLosslessRGBA(rgba.data(), width, height, 4 * width, &encoded);
   const Bytes bytes(encoded, encoded + size);
   WebPFree(encoded);
   return bytes;

@@ -230,8 +230,7 @@ TEST_F(Trees, HaveTheColoursOfTheirLeavesWhereTheyAre) {
   options.width = options.height = 160;
   options.camera = Viewpoint::front;
   for (const Surfacing surfacing : {Surfacing::direct, Surfacing::mesh}) {
-    const Subject subject =
-        tree_subject(two, find_leaves(*two, {}), draft(), surfacing, device());
+    const Subject subject = tree_subject(two, find_leaves(*two, {}), draft(), surfacing, device());
     const render::Placement& placement = subject.parts().placement;
     const auto seen = draw(subject, options, device()).buffers;
     int left = 0, right = 0, wrong = 0;

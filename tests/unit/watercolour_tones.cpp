@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "watercolour/tones.h"
-
 #include <gtest/gtest.h>
 
 #include <vector>
 
 #include "render/light.h"
+#include "watercolour/tones.h"
 
 namespace leafhull::watercolour {
 namespace {

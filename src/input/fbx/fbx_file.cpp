@@ -49,7 +49,8 @@ Scene load(ByteSpan bytes, const std::string& name, Axes axes) {
 }
 
 Transform transform_of(const ufbx_matrix& m) {
-  return {{{m.m00, m.m01, m.m02, m.m03}, {m.m10, m.m11, m.m12, m.m13}, {m.m20, m.m21, m.m22, m.m23}}};
+  return {
+      {{m.m00, m.m01, m.m02, m.m03}, {m.m10, m.m11, m.m12, m.m13}, {m.m20, m.m21, m.m22, m.m23}}};
 }
 
 bool is_finite_transform(const Transform& transform) {
@@ -119,7 +120,7 @@ class FbxReader {
                   "has a transform that is not finite", kRepairMesh);
     }
     for (std::size_t i = 0; i < mesh.material_parts.count; ++i) {
-      const ufbx_material* material = i < node.materials.count  ? node.materials.data[i]
+      const ufbx_material* material = i < node.materials.count   ? node.materials.data[i]
                                       : i < mesh.materials.count ? mesh.materials.data[i]
                                                                  : nullptr;
       const auto number = primitive_of(mesh, i, material);
@@ -132,7 +133,8 @@ class FbxReader {
 
   std::optional<std::uint32_t> primitive_of(const ufbx_mesh& mesh, std::size_t part,
                                             const ufbx_material* material) {
-    const auto [entry, is_new] = primitives_.emplace(std::tuple(&mesh, part, material), std::nullopt);
+    const auto [entry, is_new] =
+        primitives_.emplace(std::tuple(&mesh, part, material), std::nullopt);
     if (!is_new) return entry->second;
     auto primitive = read_fbx_part(mesh, mesh.material_parts.data[part],
                                    FbxMaterials::colour_texture(material), name_);

@@ -43,8 +43,7 @@ const ufbx_texture* FbxMaterials::colour_texture(const ufbx_material* material) 
 
 int FbxMaterials::use(const ufbx_material* material) {
   if (!material) return -1;
-  const auto [entry, is_new] =
-      numbers_.emplace(material, static_cast<int>(tree_.materials.size()));
+  const auto [entry, is_new] = numbers_.emplace(material, static_cast<int>(tree_.materials.size()));
   if (is_new) {
     tree_.materials.emplace_back();
     tree_.materials[entry->second] = read(*material);
@@ -56,9 +55,8 @@ Material FbxMaterials::read(const ufbx_material& material) {
   Material read;
   read.name = text_of(material.name);
   const ufbx_texture* colour = colour_texture(&material);
-  const ufbx_texture* opacity =
-      first_of({&material.pbr.opacity, &material.fbx.transparency_color,
-                &material.fbx.transparency_factor});
+  const ufbx_texture* opacity = first_of(
+      {&material.pbr.opacity, &material.fbx.transparency_color, &material.fbx.transparency_factor});
   const ufbx_material_map& base = material.pbr.base_color;
   const ufbx_material_map& factor = material.pbr.base_factor;
   if (!colour && base.has_value) {  // a texture stands in its place

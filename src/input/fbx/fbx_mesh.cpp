@@ -66,8 +66,8 @@ std::optional<Primitive> read_fbx_part(const ufbx_mesh& mesh, const ufbx_mesh_pa
       FbxCorner taken{};
       taken.position = vec3f(ufbx_get_vertex_vec3(&positions, index));
       if (!is_finite_vec(taken.position)) {
-        input_error(file, "mesh " + in_quotes(text_of(mesh.name)), "has a vertex that is not finite",
-                    kRepairMesh);
+        input_error(file, "mesh " + in_quotes(text_of(mesh.name)),
+                    "has a vertex that is not finite", kRepairMesh);
       }
       if (normals.exists) taken.normal = vec3f(ufbx_get_vertex_vec3(&normals, index));
       if (uvs.exists) taken.uv = image_uv(ufbx_get_vertex_vec2(&uvs, index), colour);
