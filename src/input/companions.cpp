@@ -28,7 +28,7 @@ bool has_drive(std::string_view name) {
   return name.size() > 2 && is_letter(name[0]) && name[1] == ':' && name[2] == '/';
 }
 
-/// With slashes, without a scheme or a drive.
+/// With slashes, without a scheme or a drive, no folder's name before a "..".
 fs::path path_of(std::string_view written) {
   std::string name(written);
   std::ranges::replace(name, '\\', '/');
@@ -39,12 +39,11 @@ fs::path path_of(std::string_view written) {
     break;
   }
   if (has_drive(name)) name.erase(0, 2);
-  return name;
+  return fs::path(name).lexically_normal();
 }
 
 bool is_outside(const fs::path& path) {
-  const fs::path normal = path.lexically_normal();
-  return path.is_absolute() || (!normal.empty() && *normal.begin() == "..");
+  return path.is_absolute() || (!path.empty() && *path.begin() == "..");
 }
 
 bool is_file(const fs::path& path) {
@@ -68,8 +67,7 @@ std::optional<fs::path> entry_of(const fs::path& folder, const std::string& name
 
 std::optional<fs::path> file_of(fs::path folder, std::span<const std::string> names) {
   for (const std::string& name : names) {
-    const std::optional<fs::path> entry =
-        entry_of(folder.empty() ? fs::path(".") : folder, name);
+    const std::optional<fs::path> entry = entry_of(folder.empty() ? fs::path(".") : folder, name);
     if (!entry) return std::nullopt;
     folder = *entry;
   }
@@ -106,8 +104,9 @@ Companions::Found Companions::find(std::string_view written) const {
   const fs::path as_written = tree_file_->parent_path() / path;
   if ((!outside || allow_outside_) && is_file(as_written)) return {as_written, {}};
   if (const auto found = beside(path)) {
-    return {*found, in_quotes(written) + (outside ? " is taken from the file's own folder: "
-                                                  : " is not there; taken instead is ") +
+    return {*found, in_quotes(written) +
+                        (outside ? " is taken from the file's own folder: "
+                                 : " is not there; taken instead is ") +
                         in_quotes(found->string())};
   }
   if (outside && !allow_outside_) {
