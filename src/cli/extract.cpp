@@ -178,6 +178,7 @@ void run_extract(const Arguments& arguments) {
   for (const std::string& warning : report.warnings) {
     if (std::find(warnings.begin(), warnings.end(), warning) == warnings.end()) warn({warning});
   }
+  warn(rounding_warnings(arguments.files, shape));
   report.warnings = warnings;
   stages.append(report.seconds);
   report.seconds = stages.with_total();
