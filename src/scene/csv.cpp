@@ -35,7 +35,7 @@ char separator_of(std::string_view line) {
   std::array<int, kSeparators.size()> counts{};
   bool quoted = false;
   for (const char c : line) {
-    quoted ^= c == '"';
+    if (c == '"') quoted = !quoted;
     const std::size_t kind = kSeparators.find(c);
     if (!quoted && kind != kSeparators.npos) ++counts[kind];
   }
