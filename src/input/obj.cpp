@@ -229,7 +229,11 @@ class PrimitiveMaker {
 }  // namespace
 
 TreeModel read_obj(ByteSpan bytes, const std::string& file, const Companions& companions) {
-  std::string text = obj_text(text_of(bytes));
+  const std::string_view written = text_of(bytes);
+  if (written.starts_with("\xFF\xFE") || written.starts_with("\xFE\xFF")) {
+    input_error(file, "", "is UTF-16 text", "Save it as UTF-8.");
+  }
+  std::string text = obj_text(written);
   TreeModel tree;
   const ObjVertices vertices = read_obj_vertices(text, file, tree.warnings);
   ObjMaterials materials = read_material_libraries(text, companions, tree.warnings);

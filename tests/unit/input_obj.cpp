@@ -360,6 +360,7 @@ TEST(Obj, RefusesBadFiles) {
   EXPECT_NE(error_of("v 0 0 1e60\n" + vertices + "f 1 2 3\n").find("vertex 1"), std::string::npos);
   EXPECT_NE(error_of(vertices).find("holds no faces"), std::string::npos);
   EXPECT_NE(error_of("hello").find("holds no faces"), std::string::npos);
+  EXPECT_NE(error_of("\xFF\xFEv").find("is UTF-16 text"), std::string::npos);
 }
 
 }  // namespace

@@ -229,6 +229,7 @@ TEST_F(CsvScene, OtherFilesAreNoScenes) {
                  "none.csv: cannot be read: No such file or directory");
   std::filesystem::create_directory(folder / "folder.csv");
   expect_refused(folder, folder / "folder.csv", "folder.csv: cannot be read: Is a directory");
+  refuse("\xFF\xFEm", "scene.csv: is UTF-16 text");
   expect_refused(folder, folder.write("tree.obj", "v 0 0 0\n"), "tree.obj is not a scene");
   EXPECT_EQ(read("birch.glb,1,2,3\n", "SCENE.CSV").trees.size(), 1u);
 }
