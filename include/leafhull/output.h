@@ -34,6 +34,10 @@ void check_outputs(const OutputFiles& files, const std::filesystem::path& input)
 /// @throws Error output: it could not be made or written to.
 void check_output_folder(const std::filesystem::path& folder);
 
+/// A line where files of floats, .stl and the kernels, lose some of the form of a shape that lies
+/// far from the origin.
+std::vector<std::string> rounding_warnings(const OutputFiles& files, const Shape& shape);
+
 /// Writes everything under temporary names, then renames: all files or none. A report's seconds
 /// gain `write`, what the other files took.
 /// @throws Error output: which file and why.

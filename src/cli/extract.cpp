@@ -164,7 +164,8 @@ void run_extract(const Arguments& arguments) {
   Stages stages(console);
   std::future<Device> opening = open_device(arguments.device, options.falloff);
   const LeafSet leaves = [&] {  // the tree is given back before the extraction needs the memory
-    const TreeModel tree = stages.run("read", [&] { return read_tree(arguments.tree, arguments.options.read_options()); });
+    const TreeModel tree = stages.run(
+        "read", [&] { return read_tree(arguments.tree, arguments.options.read_options()); });
     warn(tree.warnings);
     return stages.run("leaves", [&] { return find_leaves(tree, options.leaf_options()); });
   }();
@@ -178,6 +179,7 @@ void run_extract(const Arguments& arguments) {
   for (const std::string& warning : report.warnings) {
     if (std::find(warnings.begin(), warnings.end(), warning) == warnings.end()) warn({warning});
   }
+  warn(rounding_warnings(arguments.files, shape));
   report.warnings = warnings;
   stages.append(report.seconds);
   report.seconds = stages.with_total();

@@ -28,7 +28,7 @@ bool has_drive(std::string_view name) {
   return name.size() > 2 && is_letter(name[0]) && name[1] == ':' && name[2] == '/';
 }
 
-/// With slashes, without a scheme or a drive.
+/// With slashes, without a scheme or a drive, no folder's name before a "..".
 fs::path path_of(std::string_view written) {
   std::string name(written);
   std::ranges::replace(name, '\\', '/');
@@ -39,12 +39,11 @@ fs::path path_of(std::string_view written) {
     break;
   }
   if (has_drive(name)) name.erase(0, 2);
-  return name;
+  return fs::path(name).lexically_normal();
 }
 
 bool is_outside(const fs::path& path) {
-  const fs::path normal = path.lexically_normal();
-  return path.is_absolute() || (!normal.empty() && *normal.begin() == "..");
+  return path.is_absolute() || (!path.empty() && *path.begin() == "..");
 }
 
 bool is_file(const fs::path& path) {

@@ -130,15 +130,17 @@ Image decode_image(ByteSpan bytes, const std::string& name, std::string& reason)
   return format == Format::webp ? decode_webp(bytes, reason) : decode_stb(bytes, reason);
 }
 
-bool has_transparency(const Image& image) {
+OpacityRange opacity_range(const Image& image) {
+  OpacityRange range;
   for (std::size_t i = 3; i < image.rgba.size(); i += 4) {
-    if (image.rgba[i] != 255) return true;
+    range.low = std::min<int>(range.low, image.rgba[i]);
+    range.high = std::max<int>(range.high, image.rgba[i]);
   }
-  return false;
+  return range;
 }
 
 Image with_opacity(const Image& colour, Image opacity) {
-  const bool in_alpha = has_transparency(opacity);
+  const bool in_alpha = opacity_range(opacity).low < 255;
   for (int y = 0; y < opacity.height; ++y) {
     for (int x = 0; x < opacity.width; ++x) {
       std::uint8_t* pixel = &opacity.rgba[4 * (static_cast<std::size_t>(y) * opacity.width + x)];

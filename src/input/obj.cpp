@@ -12,6 +12,7 @@
 
 #include "input/input_error.h"
 #include "input/obj_materials.h"
+#include "input/obj_text.h"
 #include "input/obj_vertices.h"
 #include "input/polygon.h"
 #include "input/tinyobj_double.h"
@@ -44,7 +45,7 @@ class Collector {
   Collector(const std::string& file, ObjMaterials& materials)
       : file_(file), materials_(materials) {}
 
-  void run(std::string_view text) {
+  void run(std::string text) {
     tinyobj_double::callback_t callback;
     callback.vertex_cb = [](void* self, auto...) { ++of(self).position_count_; };
     callback.normal_cb = [](void* self, auto...) { ++of(self).normal_count_; };
@@ -69,7 +70,7 @@ class Collector {
       of(self).group_.clear();
       of(self).part_ = nullptr;
     };
-    std::istringstream stream{std::string(text)};
+    std::istringstream stream(std::move(text));
     tinyobj_double::LoadObjWithCallback(stream, callback, this);
   }
 
@@ -228,13 +229,16 @@ class PrimitiveMaker {
 }  // namespace
 
 TreeModel read_obj(ByteSpan bytes, const std::string& file, const Companions& companions) {
-  const std::string_view text = text_of(bytes);
-
+  const std::string_view written = text_of(bytes);
+  if (written.starts_with("\xFF\xFE") || written.starts_with("\xFE\xFF")) {
+    input_error(file, "", "is UTF-16 text", "Save it as UTF-8.");
+  }
+  std::string text = obj_text(written);
   TreeModel tree;
   const ObjVertices vertices = read_obj_vertices(text, file, tree.warnings);
   ObjMaterials materials = read_material_libraries(text, companions, tree.warnings);
   Collector obj(file, materials);
-  obj.run(text);
+  obj.run(std::move(text));
   if (obj.parts.empty()) {
     input_error(file, "", "holds no faces",
                 "Give an OBJ file with polygons (lines that begin with f).");

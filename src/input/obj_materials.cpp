@@ -2,6 +2,9 @@
 #include "input/obj_materials.h"
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
+#include <span>
 #include <sstream>
 #include <tuple>
 #include <utility>
@@ -9,28 +12,39 @@
 #include "input/file_bytes.h"
 #include "input/images.h"
 #include "input/input_error.h"
+#include "input/obj_text.h"
+#include "text/file_name.h"
 
 namespace leafhull {
 namespace {
 
-std::string_view trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(" \t\r");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
-}
-
-// The rest of every line that begins with `keyword`.
+/// The rest of every line that begins with `keyword`.
 std::vector<std::string> arguments(std::string_view obj, std::string_view keyword) {
   std::vector<std::string> found;
   while (!obj.empty()) {
-    const std::string_view line = trimmed(obj.substr(0, obj.find('\n')));
-    obj.remove_prefix(std::min(obj.find('\n'), obj.size() - 1) + 1);
-    if (line.starts_with(keyword) && line.size() > keyword.size() &&
-        (line[keyword.size()] == ' ' || line[keyword.size()] == '\t')) {
-      found.emplace_back(trimmed(line.substr(keyword.size())));
-    }
+    std::string_view line = take_line(obj);
+    if (take_word(line) == keyword && !trimmed(line).empty()) found.emplace_back(trimmed(line));
   }
   return found;
+}
+
+bool is_there(const Companions& companions, const std::string& name) try {
+  return companions.find(name).note.empty();
+} catch (const FileError&) {
+  return false;
+}
+
+/// The names on a mtllib line: the line where that is a file's, else each ends with .mtl. Either
+/// may hold blanks.
+std::vector<std::string> library_names(const std::string& line, const Companions& companions) {
+  std::vector<std::string> names(1);
+  std::string_view rest = line;
+  for (std::string_view word; !(word = take_word(rest)).empty();) {
+    if (lower_extension(names.back()) == ".mtl") names.emplace_back();
+    (names.back() += names.back().empty() ? "" : " ") += word;
+  }
+  if (names.size() == 1 || is_there(companions, line)) return {line};
+  return names;
 }
 
 /// @throws FileError.
@@ -56,21 +70,90 @@ Image read_image(const std::string& name, const Companions& companions,
   return image;
 }
 
+/// The image of a material; empty, with a warning, where it cannot be read.
+Image image_of(const std::string& color, const std::string& alpha, const Companions& companions,
+               std::vector<std::string>& warnings) {
+  Image image;
+  if (!color.empty()) image = read_image(color, companions, warnings);
+  if (!alpha.empty() && alpha != color) {
+    Image mask = read_image(alpha, companions, warnings);
+    if (!mask.empty()) image = with_opacity(image, std::move(mask));
+  }
+  image.name = color.empty() ? alpha : color;
+  return image;
+}
+
+std::string quoted_list(const std::vector<std::string>& names) {
+  constexpr std::size_t kMost = 3;
+  std::string list;
+  for (std::size_t i = 0; i < std::min(names.size(), kMost); ++i) {
+    list += (i > 0 ? ", " : "") + in_quotes(names[i]);
+  }
+  if (names.size() > kMost) list += " and " + std::to_string(names.size() - kMost) + " more";
+  return list;
+}
+
+/// NaN where a material does not have it. Words such as -halo stand before the number.
+double parameter(const tinyobj_double::material_t& material, const char* key) {
+  const auto found = material.unknown_parameter.find(key);
+  if (found == material.unknown_parameter.end()) return std::nan("");
+  const std::string_view value = trimmed(found->second);
+  return finite_number(value.substr(value.find_last_of(" \t") + 1));
+}
+
+/// None where a material contradicts itself.
+std::optional<double> opacity_of(const tinyobj_double::material_t& material) {
+  const double d = parameter(material, kDissolve), tr = parameter(material, kTransparency);
+  const double opacity = !std::isnan(d) ? d : !std::isnan(tr) ? 1 - tr : 1;
+  const bool at_odds = std::abs(d + tr - 1) > 0.01 ||  // false where one is NaN
+                       (opacity <= 0 && !material.alpha_texname.empty());
+  return at_odds ? std::nullopt : std::optional(std::clamp(opacity, 0.0, 1.0));
+}
+
+/// Exporters disagree about what d and Tr mean: what cannot be meant is taken as opaque.
+void set_opacities(std::span<tinyobj_double::material_t> library, const std::string& name,
+                   std::vector<std::string>& warnings) {
+  std::vector<std::string> at_odds;
+  for (tinyobj_double::material_t& material : library) {
+    const std::optional<double> opacity = opacity_of(material);
+    if (!opacity) at_odds.push_back(material.name);
+    material.dissolve = opacity.value_or(1);
+  }
+  if (!at_odds.empty()) {
+    warnings.push_back(in_quotes(name) + ": d, Tr and map_d contradict each other, taken as " +
+                       "opaque: " + quoted_list(at_odds));
+  }
+  if (std::ranges::all_of(library, [](const auto& material) { return material.dissolve == 0; })) {
+    for (tinyobj_double::material_t& material : library) material.dissolve = 1;
+    warnings.push_back(in_quotes(name) + ": d and Tr make every material fully transparent; all " +
+                       "are taken as opaque");
+  }
+}
+
 }  // namespace
 
 ObjMaterials read_material_libraries(std::string_view obj, const Companions& companions,
                                      std::vector<std::string>& warnings) {
+  std::vector<std::string> names;
+  for (const std::string& line : arguments(obj, "mtllib")) {
+    for (std::string& name : library_names(line, companions)) {
+      if (std::ranges::find(names, name) == names.end()) names.push_back(std::move(name));
+    }
+  }
   ObjMaterials result;
-  for (const std::string& name : arguments(obj, "mtllib")) {
+  for (const std::string& name : names) {
     try {
       const Bytes bytes = read_companion(companions, name, warnings);
-      std::istringstream stream{std::string(text_of(bytes))};
+      std::istringstream stream(obj_text(text_of(bytes)));
+      const std::size_t first = result.materials.size();
       std::string warning, error;
       tinyobj_double::LoadMtl(&result.by_name, &result.materials, &stream, &warning, &error);
+      set_opacities(std::span(result.materials).subspan(first), name, warnings);
     } catch (const FileError& error) {
       warnings.push_back("mtllib " + in_quotes(name) + " not read: " + error.what());
     }
   }
+  result.in_libraries = result.materials.size();
   return result;
 }
 
@@ -92,6 +175,7 @@ int ObjMaterials::find_or_add(const std::string& name) {
 void add_materials(const ObjMaterials& from, const std::vector<bool>& used,
                    const Companions& companions, TreeModel& tree) {
   std::map<std::pair<std::string, std::string>, int> images;  // by map_Kd and map_d
+  std::vector<std::string> unknown;
   for (std::size_t i = 0; i < from.materials.size(); ++i) {
     const tinyobj_double::material_t& source = from.materials[i];
     Material& material = tree.materials.emplace_back();
@@ -103,22 +187,33 @@ void add_materials(const ObjMaterials& from, const std::vector<bool>& used,
     } else if (source.dissolve < 1) {
       material.alpha_mode = AlphaMode::blend;
     }
+    // Without a Kd, which programs leave out beside a texture, the library says black.
+    const bool is_black =
+        material.base_color[0] + material.base_color[1] + material.base_color[2] == 0;
+    if (is_black && !source.diffuse_texname.empty()) {
+      std::fill_n(material.base_color.begin(), 3, 1.0f);
+    }
     if (source.diffuse_texopt.clamp) material.wrap_u = material.wrap_v = Wrap::clamp;
 
+    if (!used[i]) continue;
+    if (from.in_libraries > 0 && i >= from.in_libraries) unknown.push_back(source.name);
     const auto& [color, alpha] = std::tie(source.diffuse_texname, source.alpha_texname);
-    if (!used[i] || (color.empty() && alpha.empty())) continue;
+    if (color.empty() && alpha.empty()) continue;
     const auto [entry, is_new] =
         images.emplace(std::pair(color, alpha), static_cast<int>(tree.images.size()));
+    if (is_new) tree.images.push_back(image_of(color, alpha, companions, tree.warnings));
     material.base_color_image = entry->second;
-    if (!is_new) continue;
-    Image image;
-    if (!color.empty()) image = read_image(color, companions, tree.warnings);
-    if (!alpha.empty() && alpha != color) {
-      Image mask = read_image(alpha, companions, tree.warnings);
-      if (!mask.empty()) image = with_opacity(image, std::move(mask));
+    const Image& image = tree.images[entry->second];
+    if (material.alpha_mode != AlphaMode::opaque || image.empty()) continue;
+    const OpacityRange range = opacity_range(image);
+    if (range.has_holes()) material.alpha_mode = AlphaMode::mask;
+    if (range.shows_nothing() && is_new) {
+      tree.warnings.push_back(in_quotes(color) +
+                              ": nothing in it is opaque; its alpha is passed over");
     }
-    image.name = color.empty() ? alpha : color;
-    tree.images.push_back(std::move(image));
+  }
+  if (!unknown.empty()) {
+    tree.warnings.push_back("no material library has " + quoted_list(unknown));
   }
 }
 

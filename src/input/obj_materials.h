@@ -16,16 +16,19 @@ namespace leafhull {
 struct ObjMaterials {
   std::vector<tinyobj_double::material_t> materials;
   std::map<std::string, int> by_name;
+  std::size_t in_libraries = 0;  ///< how many of them
 
   /// The index of a material; one that no library has is added, for its name alone can tell leaves.
   int find_or_add(const std::string& name);
 };
 
-/// @param warnings gets a line for each library that cannot be read.
+/// @param obj from `obj_text`.
+/// @param warnings gets a line for each library that cannot be read or contradicts itself.
 ObjMaterials read_material_libraries(std::string_view obj, const Companions& companions,
                                      std::vector<std::string>& warnings);
 
-/// Adds the materials that are `used` to a tree with their images; the others without.
+/// Adds the materials that are `used` to a tree with their images; the others without. Holes in the
+/// colour image are holes in the material.
 void add_materials(const ObjMaterials& from, const std::vector<bool>& used,
                    const Companions& companions, TreeModel& tree);
 

@@ -1,45 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "input/obj_vertices.h"
 
-#include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <limits>
 
 #include "colour/colour.h"
 #include "input/input_error.h"
+#include "input/obj_text.h"
 
 namespace leafhull {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-
-// Lines end with LF, CR or both, as tinyobjloader takes them.
-std::string_view take_line(std::string_view& text) {
-  const std::size_t length = std::min(text.find_first_of("\r\n"), text.size());
-  const std::string_view line = text.substr(0, length);
-  text.remove_prefix(
-      std::min(length + (text.substr(length).starts_with("\r\n") ? 2 : 1), text.size()));
-  return line;
-}
-
-std::string_view take_word(std::string_view& line) {
-  constexpr std::string_view kBlanks = " \t";
-  line.remove_prefix(std::min(line.find_first_not_of(kBlanks), line.size()));
-  const std::string_view word = line.substr(0, line.find_first_of(kBlanks));
-  line.remove_prefix(word.size());
-  return word;
-}
-
-/// NaN where the next word of the line is not a finite number.
-double take_number(std::string_view& line) {
-  std::string_view word = take_word(line);
-  if (word.starts_with('+') && !word.starts_with("+-")) word.remove_prefix(1);
-  double value = kNaN;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  const bool good = error == std::errc() && end == word.data() + word.size();
-  return good && std::isfinite(value) ? value : kNaN;
-}
+double take_number(std::string_view& line) { return finite_number(take_word(line)); }
 
 Vec3d take_vec3(std::string_view& line) {
   const double x = take_number(line), y = take_number(line), z = take_number(line);

@@ -17,7 +17,7 @@ struct ObjVertices {
   std::vector<Vec2d> uvs;      ///< NaN where a line is not one or two numbers
 };
 
-/// tinyobjloader reads what is not a number as zero.
+/// From `obj_text`. tinyobjloader reads what is not a number as zero.
 /// @throws Error input: a v line is not three finite numbers.
 ObjVertices read_obj_vertices(std::string_view text, const std::string& file,
                               std::vector<std::string>& warnings);

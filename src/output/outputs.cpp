@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -15,6 +19,7 @@
 #include "leafhull/output.h"
 #include "output/destination.h"
 #include "output/file_stream.h"
+#include "output/mesh_vertex.h"
 #include "output/transaction.h"
 #include "output/writers.h"
 #include "surface/volume.h"
@@ -98,6 +103,17 @@ std::vector<StageTime> with_write(std::vector<StageTime> times, double seconds) 
   return times;
 }
 
+/// How far floats are apart at the outermost vertex.
+double float_step(const Mesh& mesh) {
+  double farthest = 0;
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+    const Vec3d p = world_position(mesh, i);
+    farthest = std::max({farthest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+  }
+  const auto far = static_cast<float>(farthest);
+  return std::nextafter(far, std::numeric_limits<float>::infinity()) - far;
+}
+
 void write_to_standard_output(const std::string& text) {
   FileStream stream(STDOUT_FILENO, "standard output");
   stream << text << std::flush;
@@ -125,6 +141,27 @@ void check_outputs(const OutputFiles& files, const fs::path& input) {
           "Name each output differently.");
     }
   }
+}
+
+std::vector<std::string> rounding_warnings(const OutputFiles& files, const Shape& shape) {
+  constexpr double kVisible = 0.05;  // of a voxel
+  std::vector<fs::path> rounded;
+  for (const fs::path& file : files.shapes) {
+    if (lower_extension(file) == ".stl") rounded.push_back(file);
+  }
+  if (files.kernels) rounded.push_back(*files.kernels);
+  const double step = float_step(shape.mesh), voxel = shape.report.voxel_size;
+  std::vector<std::string> warnings;
+  for (const fs::path& file : rounded) {
+    if (step <= kVisible * voxel) break;
+    std::array<char, 160> text;
+    std::snprintf(text.data(), text.size(),
+                  ": so far from the origin its floats are %.2g apart, and a voxel is %.2g; .glb, "
+                  ".gltf, .obj, .ply and .vdb shapes keep their form",
+                  step, voxel);
+    warnings.push_back(file.string() + text.data());
+  }
+  return warnings;
 }
 
 void write_outputs(const OutputFiles& files, const Shape& shape, const RunDescription& run) {

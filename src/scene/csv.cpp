@@ -2,6 +2,7 @@
 #include "scene/csv.h"
 
 #include <algorithm>
+#include <array>
 
 #include "scene/scatter_row.h"
 
@@ -10,8 +11,9 @@ namespace {
 
 constexpr std::string_view kBlanks = " \t";
 
-std::size_t skip_blanks(std::string_view line, std::size_t at) {
-  return std::min(line.find_first_not_of(kBlanks, at), line.size());
+std::size_t skip_blanks(std::string_view line, char separator, std::size_t at) {
+  while (at < line.size() && line[at] != separator && kBlanks.find(line[at]) != kBlanks.npos) ++at;
+  return at;
 }
 
 /// The text between quotes, the first of them at `at`, which then stands behind the last.
@@ -28,19 +30,31 @@ std::string_view quoted_field(std::string& line, std::size_t& at) {
 
 }  // namespace
 
-void split_csv(std::string& line, std::vector<std::string_view>& fields) {
+char separator_of(std::string_view line) {
+  constexpr std::string_view kSeparators = ";,\t";
+  std::array<int, kSeparators.size()> counts{};
+  bool quoted = false;
+  for (const char c : line) {
+    if (c == '"') quoted = !quoted;
+    const std::size_t kind = kSeparators.find(c);
+    if (!quoted && kind != kSeparators.npos) ++counts[kind];
+  }
+  return kSeparators[std::ranges::max_element(counts) - counts.begin()];
+}
+
+void split_csv(std::string& line, char separator, std::vector<std::string_view>& fields) {
   fields.clear();
   for (std::size_t at = 0;; ++at) {
-    at = skip_blanks(line, at);
+    at = skip_blanks(line, separator, at);
     if (at < line.size() && line[at] == '"') {
       fields.push_back(quoted_field(line, at));
-      at = skip_blanks(line, at);
-      if (at < line.size() && line[at] != ',') {
+      at = skip_blanks(line, separator, at);
+      if (at < line.size() && line[at] != separator) {
         throw BadRow{"text follows a quoted field", "Write a quote within quotes twice."};
       }
     } else {
       const std::size_t begin = at;
-      at = std::min(line.find(',', at), line.size());
+      at = std::min(line.find(separator, at), line.size());
       const std::string_view field = std::string_view(line).substr(begin, at - begin);
       fields.push_back(field.substr(0, field.find_last_not_of(kBlanks) + 1));
     }

@@ -50,9 +50,20 @@ std::optional<double> number_in(std::string_view text) {
   return value;
 }
 
+bool has_decimal_comma(std::string_view text) {
+  std::string with_point(text);
+  std::ranges::replace(with_point, ',', '.');
+  return with_point != text && number_in(with_point);
+}
+
 double number(std::string_view text, int column) {
   const std::optional<double> value = number_in(text);
   if (value) return *value;
+  if (has_decimal_comma(text)) {
+    throw BadRow{'"' + printable(text) + "\" in column " + std::string(kColumns[column]) +
+                     " has a decimal comma",
+                 "Write a decimal point, as in 1.5."};
+  }
   throw BadRow{
       '"' + printable(text) + "\" in column " + std::string(kColumns[column]) + " is not a number",
       "Write numbers such as 1.5."};
@@ -105,9 +116,11 @@ int kind_of(const std::vector<int>& columns, const std::array<Group, kCount>& gr
 }  // namespace
 
 bool CsvRows::read(std::string& line, ScatterRow& row) {
-  split_csv(line, fields_);
+  if (columns_.empty()) separator_ = separator_of(line);
+  split_csv(line, separator_, fields_);
   if (columns_.empty()) {
-    const bool named = fields_.size() < 2 || !number_in(fields_[1]);
+    const bool named =
+        fields_.size() < 2 || (!number_in(fields_[1]) && !has_decimal_comma(fields_[1]));
     columns_ = named ? named_columns() : usual_columns(fields_.size());
     rotation_ = kind_of(columns_, kRotations);
     scale_ = kind_of(columns_, kScales);

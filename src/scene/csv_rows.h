@@ -9,8 +9,9 @@
 
 namespace leafhull {
 
-/// Reads the lines of a .csv one after the other. The first names the columns, in any order; or its
-/// second field is a number, and the columns are known by their count.
+/// Reads the lines of a .csv one after the other. The first tells the separator and names the
+/// columns, in any order; or its second field is a number, and the columns are known by their
+/// count.
 class CsvRows {
  public:
   /// False where `line` names the columns. It is rewritten.
@@ -26,6 +27,7 @@ class CsvRows {
   std::vector<int> columns_;  ///< by field, into kColumns; or none
   std::vector<std::string_view> fields_;
   std::vector<std::string> unknown_;
+  char separator_ = ',';
   int rotation_ = -1, scale_ = -1;  ///< their kinds
 };
 

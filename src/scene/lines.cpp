@@ -27,6 +27,9 @@ Lines::Lines(const std::filesystem::path& file) : file_(file), stream_(file, std
 bool Lines::next() {
   while (std::getline(stream_, text_)) {
     ++number_;
+    if (number_ == 1 && (text_.starts_with("\xFF\xFE") || text_.starts_with("\xFE\xFF"))) {
+      throw Error(ErrorCode::input, file_.string() + ": is UTF-16 text", "Save it as UTF-8.");
+    }
     if (number_ == 1 && text_.starts_with("\xEF\xBB\xBF")) text_.erase(0, 3);
     if (text_.ends_with('\r')) text_.pop_back();
     const std::size_t first = text_.find_first_not_of(" \t");

@@ -15,7 +15,7 @@ class Lines {
   /// @throws Error input: the file cannot be read.
   explicit Lines(const std::filesystem::path& file);
 
-  /// @throws Error input, as the constructor.
+  /// @throws Error input, as the constructor, or where the text is UTF-16.
   bool next();
   std::string& text() { return text_; }
   std::size_t number() const { return number_; }  ///< from one

@@ -177,6 +177,171 @@ TEST(Obj, ReadsMaterialLibraryAndMasks) {
   EXPECT_FLOAT_EQ(tree.materials[1].base_color[3], 0.25f);
 }
 
+/// A folder with an OBJ file of one triangle for each named material, and what it names.
+struct ObjFolder {
+  TemporaryFolder folder;
+
+  void write(const std::string& name, const std::string& text) const {
+    std::filesystem::create_directories((folder / name).parent_path());
+    std::ofstream(folder / name, std::ios::binary) << text;
+  }
+  /// As many pixels in a row as there are alphas.
+  void write_image(const std::string& name, const std::vector<std::uint8_t>& alphas) const {
+    std::vector<std::uint8_t> rgba;
+    for (const std::uint8_t alpha : alphas) rgba.insert(rgba.end(), {10, 20, 30, alpha});
+    const auto file = png(static_cast<int>(alphas.size()), 1, rgba);
+    write(name, std::string(file.begin(), file.end()));
+  }
+  TreeModel read(const std::string& head, const std::vector<std::string>& materials) const {
+    std::string text = head + "v 0 0 0\nv 1 0 0\nv 1 1 0\n";
+    for (const std::string& material : materials) text += "usemtl " + material + "\nf 1 2 3\n";
+    write("t.obj", text);
+    return read_tree(folder / "t.obj");
+  }
+};
+
+const Material& material_named(const TreeModel& tree, const std::string& name) {
+  return *std::ranges::find(tree.materials, name, &Material::name);
+}
+
+void expect_one_warning(const TreeModel& tree, const std::vector<std::string>& parts) {
+  ASSERT_EQ(tree.warnings.size(), 1u);
+  for (const std::string& part : parts) {
+    EXPECT_NE(tree.warnings[0].find(part), std::string::npos) << tree.warnings[0];
+  }
+}
+
+TEST(Obj, PassesOverByteOrderMarks) {
+  const ObjFolder files;
+  files.write("t.mtl", "\xEF\xBB\xBFnewmtl leaf\r\nKd 0 0.5 0\r\n");
+  const TreeModel tree = files.read("\xEF\xBB\xBFmtllib t.mtl\r\n", {"leaf"});
+  EXPECT_FLOAT_EQ(material_named(tree, "leaf").base_color[1], 0.5f);
+  EXPECT_TRUE(tree.warnings.empty());
+}
+
+TEST(Obj, KnowsKeywordsInAnyCase) {
+  const ObjFolder files;
+  files.write_image("leaf.png", {255, 0});
+  files.write("t.mtl", "NewMtl leaf\nKD 0 .5 0\nMAP_KD leaf.png\nmap_D leaf.png\n\tTR 0.5\n");
+  files.write("u.obj",
+              "MtlLib t.mtl\nV 0 0 0\nV 1 0 0\nV 1 1 0\nVT 0 0\nVN 0 0 1\nG crown\n"
+              "UseMTL leaf\nF 1/1/1 2/1/1 3/1/1\n");
+  const TreeModel tree = read_tree(files.folder / "u.obj");
+  EXPECT_TRUE(tree.warnings.empty());
+  EXPECT_EQ(tree.primitives[0].mesh_name, "crown");
+  EXPECT_EQ(tree.primitives[0].uvs.size(), 3u);
+  const Material& leaf = material_named(tree, "leaf");
+  EXPECT_EQ(leaf.alpha_mode, AlphaMode::mask);
+  EXPECT_EQ(leaf.base_color, (std::array<float, 4>{0, 0.5f, 0, 0.5f}));
+  EXPECT_EQ(tree.images.at(0).rgba[7], 0);
+}
+
+TEST(Obj, JoinsContinuedLines) {
+  for (const std::string end : {"\n", "\r\n", "\r"}) {
+    std::string text =
+        "# C:\\trees\\\nv 0 0 0\nv 1\\\n 0 \\\n0\nv 1 1 0\nv 0 1 0\nf 1 2\\\n3 4\nv nan 0 0\\";
+    for (std::size_t at = 0; (at = text.find('\n', at)) != std::string::npos; at += end.size()) {
+      text.replace(at, 1, end);
+    }
+    EXPECT_NE(error_of(text).find("line 10: "), std::string::npos) << error_of(text);
+    const TreeModel tree = read_lines(text.substr(0, text.find("v nan")));
+    EXPECT_EQ(tree.primitives.at(0).triangles.size(), 2u);
+    EXPECT_EQ(std::ranges::count(tree.primitives[0].positions, Vec3f(1, 0, 0)), 1);
+  }
+}
+
+TEST(Obj, TakesHolesOfTheColourImage) {
+  const ObjFolder files;
+  files.write_image("holes.png", {255, 0});
+  files.write_image("full.png", {255, 254});
+  files.write_image("nothing.png", {0, 0});
+  files.write("t.mtl",
+              "newmtl leaf\nmap_Kd holes.png\nnewmtl same\nmap_Kd holes.png\n"
+              "newmtl bark\nmap_Kd full.png\nnewmtl pond\nd 0.5\nmap_Kd holes.png\n");
+  const TreeModel tree = files.read("mtllib t.mtl\n", {"leaf", "same", "bark", "pond"});
+  EXPECT_TRUE(tree.warnings.empty());
+  EXPECT_EQ(material_named(tree, "leaf").alpha_mode, AlphaMode::mask);
+  EXPECT_EQ(material_named(tree, "same").alpha_mode, AlphaMode::mask);
+  EXPECT_EQ(material_named(tree, "bark").alpha_mode, AlphaMode::opaque);
+  EXPECT_EQ(material_named(tree, "pond").alpha_mode, AlphaMode::blend);
+
+  files.write("t.mtl", "newmtl leaf\nmap_Kd nothing.png\n");
+  const TreeModel empty = files.read("mtllib t.mtl\n", {"leaf"});
+  EXPECT_EQ(empty.materials[0].alpha_mode, AlphaMode::opaque);
+  expect_one_warning(empty, {"nothing.png", "passed over"});
+}
+
+TEST(Obj, FindsTexturesOfAnotherMachine) {
+  const ObjFolder files;
+  files.write_image("Textures/Leaf.PNG", {255, 0});
+  files.write("t.mtl", "newmtl leaf\nmap_Kd C:\\Users\\Ann\\textures\\leaf.png\n");
+  const TreeModel tree = files.read("mtllib t.mtl\n", {"leaf"});
+  EXPECT_EQ(tree.images.at(0).width, 2);
+  expect_one_warning(tree, {"\"C:\\Users\\Ann\\textures\\leaf.png\"", "Textures/Leaf.PNG"});
+}
+
+TEST(Obj, ReadsSeveralLibrariesOfOneLine) {
+  const ObjFolder files;
+  files.write("my a.mtl", "newmtl a\nKd 0 0 0\n");
+  files.write("b.MTL", "newmtl b\nKd 0 0 0\n");
+  const TreeModel tree = files.read("mtllib my a.mtl b.MTL\nmtllib b.MTL\n", {"a", "b"});
+  EXPECT_TRUE(tree.warnings.empty());
+  EXPECT_EQ(tree.materials.size(), 2u);
+  EXPECT_EQ(material_named(tree, "a").base_color[0], 0);
+  EXPECT_EQ(material_named(tree, "b").base_color[0], 0);
+
+  expect_one_warning(files.read("mtllib ./lost.mtl ./b.MTL\n", {"b"}), {"lost.mtl\" not read"});
+  expect_one_warning(files.read("mtllib a lost one.mtl\n", {"b"}), {"\"a lost one.mtl\" not read"});
+
+  files.write("c.mtl d.mtl", "newmtl c\nKd 0 0 0\n");
+  const TreeModel one = files.read("mtllib c.mtl d.mtl\n", {"c"});
+  EXPECT_TRUE(one.warnings.empty());
+  EXPECT_EQ(one.materials.size(), 1u);
+}
+
+TEST(Obj, TakesOpacitiesThatCannotBeMeantAsOpaque) {
+  const ObjFolder files;
+  files.write_image("mask.png", {255, 0});
+  const auto read = [&](const std::string& library, const std::vector<std::string>& materials) {
+    files.write("t.mtl", library);
+    return files.read("mtllib t.mtl\n", materials);
+  };
+  const std::vector<std::string> both{"a", "b"};
+
+  const TreeModel tree =
+      read("newmtl a\nd 0.25\nTr 0.75\nnewmtl b\nTr 0.75\nnewmtl c\nd -halo 0.5\nnewmtl e\nd 0\n",
+           {"a", "b", "c", "e"});
+  EXPECT_TRUE(tree.warnings.empty());
+  for (const char* name : {"a", "b"}) {
+    EXPECT_FLOAT_EQ(material_named(tree, name).base_color[3], 0.25f);
+  }
+  EXPECT_FLOAT_EQ(material_named(tree, "c").base_color[3], 0.5f);
+  EXPECT_FLOAT_EQ(material_named(tree, "e").base_color[3], 0);
+
+  for (const char* all : {"newmtl a\nd 0\nnewmtl b\nd 0.0\n", "newmtl a\nTr 1\nnewmtl b\nTr 1\n",
+                          "newmtl a\nd 0\nTr 1\nnewmtl b\nTr 1\n"}) {
+    const TreeModel opaque = read(all, both);
+    expect_one_warning(opaque, {"\"t.mtl\": ", "every material fully transparent"});
+    EXPECT_EQ(opaque.materials[1].alpha_mode, AlphaMode::opaque);
+    EXPECT_EQ(opaque.materials[1].base_color[3], 1);
+  }
+  for (const char* at_odds : {"Tr 1\nd 1", "d 1\nTr 1", "d 0\nTr 0", "d 0\nmap_d mask.png"}) {
+    const TreeModel opaque =
+        read(std::string("newmtl b\nd 0.5\nnewmtl a\n") + at_odds + "\n", both);
+    expect_one_warning(opaque, {"contradict each other", "opaque: \"a\""});
+    EXPECT_EQ(material_named(opaque, "a").base_color[3], 1);
+  }
+}
+
+TEST(Obj, NamesMaterialsThatNoLibraryHas) {
+  const ObjFolder files;
+  files.write("t.mtl", "newmtl leaf\nKd 0 0 0\n");
+  expect_one_warning(files.read("mtllib t.mtl\n", {"leaf", "bark", "a", "b", "c", "bark"}),
+                     {"no material library has \"bark\", \"a\", \"b\" and 1 more"});
+  EXPECT_TRUE(files.read("", {"bark"}).warnings.empty());
+  expect_one_warning(files.read("mtllib lost.mtl\n", {"bark"}), {"lost.mtl"});
+}
+
 TEST(Obj, RefusesBadFiles) {
   const std::string vertices = "v 0 0 0\nv 1 0 0\nv 1 1 0\n";
   EXPECT_NE(error_of(vertices + "f 1 2 4\n").find("t.obj: "), std::string::npos);
@@ -195,6 +360,7 @@ TEST(Obj, RefusesBadFiles) {
   EXPECT_NE(error_of("v 0 0 1e60\n" + vertices + "f 1 2 3\n").find("vertex 1"), std::string::npos);
   EXPECT_NE(error_of(vertices).find("holds no faces"), std::string::npos);
   EXPECT_NE(error_of("hello").find("holds no faces"), std::string::npos);
+  EXPECT_NE(error_of("\xFF\xFEv").find("is UTF-16 text"), std::string::npos);
 }
 
 }  // namespace

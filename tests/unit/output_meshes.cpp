@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <tiny_obj_loader.h>
 
+#include "leafhull/output.h"
 #include "output/writers.h"
 #include "output_sample.h"
 
@@ -132,6 +133,23 @@ TEST(Stl, HoldsTheTrianglesInTheWorld) {
     EXPECT_EQ(take<std::uint16_t>(bytes, offset), 0);
   }
   EXPECT_EQ(offset, bytes.size());
+}
+
+TEST(Stl, IsSaidToLoseDigitsFarOut) {
+  const OutputFiles files{.shapes = {"a.glb", "a.STL", "a.ply"}, .kernels = "k.ply"};
+  Shape shape = sample_shape();
+  EXPECT_TRUE(rounding_warnings(files, shape).empty());
+  shape.mesh = sphere(6, kFarOut);
+  const std::vector<std::string> warnings = rounding_warnings(files, shape);
+  ASSERT_EQ(warnings.size(), 2u);
+  EXPECT_TRUE(
+      warnings[0].starts_with("a.STL: so far from the origin its floats are 0.062 apart, "
+                              "and a voxel is 0.1; "))
+      << warnings[0];
+  EXPECT_TRUE(warnings[1].starts_with("k.ply: ")) << warnings[1];
+  EXPECT_TRUE(rounding_warnings({.shapes = {"a.glb", "a.ply"}}, shape).empty());
+  shape.report.voxel_size = 10;
+  EXPECT_TRUE(rounding_warnings(files, shape).empty());
 }
 
 TEST(Kernels, StandInTheOrderOfTheSpecification) {

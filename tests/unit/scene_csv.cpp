@@ -98,6 +98,36 @@ TEST_F(CsvScene, TextIsTakenAsProgramsWriteIt) {
   EXPECT_EQ(scene.trees[1].position, Vec3d(4, 5, 6));
 }
 
+TEST_F(CsvScene, SemicolonsAndTabsSeparateToo) {
+  folder.tree("a; b, c.glb");
+  for (const std::string separator : {";", "\t"}) {
+    for (const std::string head : {"model,x,y,z,species\n", ""}) {
+      std::string text = head + "birch.glb, 1 ,2,3" + (head.empty() ? "" : ",") + "\n";
+      for (std::size_t at = 0; (at = text.find(',', at)) != std::string::npos;) {
+        text.replace(at, 1, separator);
+      }
+      text += "\"a; b, c.glb\"" + separator + "4" + separator + "5" + separator + "6" +
+              (head.empty() ? "" : separator + "x") + "\n";
+      const Scene scene = read("\xEF\xBB\xBF" + text);
+      ASSERT_EQ(scene.trees.size(), 2u);
+      EXPECT_EQ(scene.trees[0].position, Vec3d(1, 2, 3));
+      EXPECT_EQ(scene.models[1].name, "a; b, c");
+    }
+  }
+  EXPECT_EQ(read("model,\tx,\ty,\tz\nbirch.glb,\t1,2,3\n").trees.size(), 1u);
+  EXPECT_EQ(read("\"a; b, c.glb\",1,2,3\n").trees.size(), 1u);
+}
+
+TEST_F(CsvScene, DecimalCommasAreNamed) {
+  refuse("model;x;y;z\nbirch.glb;1;2,5;3\n",
+         "scene.csv, line 2: \"2,5\" in column y has a decimal comma");
+  refuse("birch.glb;1,5;2,5;3,5\n", "scene.csv, line 1: \"1,5\" in column x has a decimal comma");
+  refuse("model,x,y,z\nbirch.glb,1,\"2,5\",3\n",
+         "scene.csv, line 2: \"2,5\" in column y has a decimal comma");
+  refuse("model;x;y;z\nbirch.glb;1;2,5m;3\n",
+         "scene.csv, line 2: \"2,5m\" in column y is not a number");
+}
+
 TEST_F(CsvScene, UnknownColumnsArePassedOverWithOneWarning) {
   const Scene scene = read("age,model,x,y,z,species\nold,birch.glb,1,2,3,x\nnew,ash.glb,1,2,3,y\n");
   EXPECT_EQ(scene.trees.size(), 2u);
@@ -199,6 +229,7 @@ TEST_F(CsvScene, OtherFilesAreNoScenes) {
                  "none.csv: cannot be read: No such file or directory");
   std::filesystem::create_directory(folder / "folder.csv");
   expect_refused(folder, folder / "folder.csv", "folder.csv: cannot be read: Is a directory");
+  refuse("\xFF\xFEm", "scene.csv: is UTF-16 text");
   expect_refused(folder, folder.write("tree.obj", "v 0 0 0\n"), "tree.obj is not a scene");
   EXPECT_EQ(read("birch.glb,1,2,3\n", "SCENE.CSV").trees.size(), 1u);
 }

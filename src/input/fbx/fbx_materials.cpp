@@ -76,8 +76,14 @@ Material FbxMaterials::read(const ufbx_material& material) {
     read.wrap_u = wrap_of(shown->wrap_u);
     read.wrap_v = wrap_of(shown->wrap_v);
     read.base_color_image = read_image(colour, opacity);
-    // The file says nothing of how alpha is meant; where the image has some, it cuts out.
-    if (has_transparency(tree_.images[read.base_color_image])) read.alpha_mode = AlphaMode::mask;
+    // The file says nothing of how alpha is meant; where the image has holes, they are some.
+    const Image& image = tree_.images[read.base_color_image];
+    const OpacityRange range = opacity_range(image);
+    if (range.has_holes()) read.alpha_mode = AlphaMode::mask;
+    if (!image.empty() && range.shows_nothing()) {
+      tree_.warnings.push_back(in_quotes(image.name) +
+                               ": nothing in it is opaque; its alpha is passed over");
+    }
   }
   return read;
 }
