@@ -264,6 +264,7 @@ TEST(Obj, TakesHolesOfTheColourImage) {
   EXPECT_EQ(material_named(tree, "same").alpha_mode, AlphaMode::mask);
   EXPECT_EQ(material_named(tree, "bark").alpha_mode, AlphaMode::opaque);
   EXPECT_EQ(material_named(tree, "pond").alpha_mode, AlphaMode::blend);
+  EXPECT_EQ(material_named(tree, "leaf").base_color[1], 1) << "no Kd beside a texture";
 
   files.write("t.mtl", "newmtl leaf\nmap_Kd nothing.png\n");
   const TreeModel empty = files.read("mtllib t.mtl\n", {"leaf"});
