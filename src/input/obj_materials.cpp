@@ -130,6 +130,18 @@ void set_opacities(std::span<tinyobj_double::material_t> library, const std::str
   }
 }
 
+/// Gives each material a white Kd before what it says: without one the library takes black, or a
+/// grey beside a texture, where programs mean the texture as it is.
+std::string white_unless_told(std::string_view library) {
+  std::string text;
+  while (!library.empty()) {
+    const std::string_view line = take_line(library);
+    text.append(line).append("\n");
+    if (line.starts_with("newmtl ")) text += "Kd 1 1 1\n";
+  }
+  return text;
+}
+
 }  // namespace
 
 ObjMaterials read_material_libraries(std::string_view obj, const Companions& companions,
@@ -144,7 +156,7 @@ ObjMaterials read_material_libraries(std::string_view obj, const Companions& com
   for (const std::string& name : names) {
     try {
       const Bytes bytes = read_companion(companions, name, warnings);
-      std::istringstream stream(obj_text(text_of(bytes)));
+      std::istringstream stream(white_unless_told(obj_text(text_of(bytes))));
       const std::size_t first = result.materials.size();
       std::string warning, error;
       tinyobj_double::LoadMtl(&result.by_name, &result.materials, &stream, &warning, &error);
@@ -186,12 +198,6 @@ void add_materials(const ObjMaterials& from, const std::vector<bool>& used,
       material.alpha_mode = AlphaMode::mask;
     } else if (source.dissolve < 1) {
       material.alpha_mode = AlphaMode::blend;
-    }
-    // Without a Kd, which programs leave out beside a texture, the library says black.
-    const bool is_black =
-        material.base_color[0] + material.base_color[1] + material.base_color[2] == 0;
-    if (is_black && !source.diffuse_texname.empty()) {
-      std::fill_n(material.base_color.begin(), 3, 1.0f);
     }
     if (source.diffuse_texopt.clamp) material.wrap_u = material.wrap_v = Wrap::clamp;
 
