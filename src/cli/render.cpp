@@ -141,7 +141,8 @@ class Run {
       return;
     }
     console_.progress("read", 0);
-    const auto model = std::make_shared<const TreeModel>(read_tree(arguments_.tree, arguments_.options.read_options()));
+    const auto model = std::make_shared<const TreeModel>(
+        read_tree(arguments_.tree, arguments_.options.read_options()));
     warn(model->warnings);
     const bool shape = arguments_.is_shape.value_or(arguments_.options.leaves.empty() &&
                                                     leafhull::is_shape(*model));

@@ -28,9 +28,9 @@ struct Subject::Parts {
   render::Placement placement;
   std::vector<Vec3f> points;  ///< what named viewpoints hold, each with `reach` around it
   float reach = 0;
-  std::vector<LeafCard> leaves;      ///< by their number
+  std::vector<LeafCard> leaves;  ///< by their number
   LeafKind leaf_kind = LeafKind::broad;
-  std::optional<Vec3f> leaf_colour;  ///< linear, mean; none: unknown
+  std::optional<Vec3f> leaf_colour;           ///< linear, mean; none: unknown
   std::optional<CrownColours> crown_colours;  ///< where they differ
 
   std::shared_ptr<const TreeModel> model;  ///< of wood, or of a shape

@@ -40,7 +40,8 @@ TEST(Foreign, FormatsAreToldByTheirBytesToo) {
 }
 
 TEST(Foreign, NamesDoNotBreakTheCommand) {
-  for (const char* name : {"o'ak.blend", "o\"ak.blend", "$(oak).blend", "`oak`.blend", "o\\ak.blend"}) {
+  for (const char* name :
+       {"o'ak.blend", "o\"ak.blend", "$(oak).blend", "`oak`.blend", "o\\ak.blend"}) {
     EXPECT_TRUE(holds(remedy_of(name), "blender -b 'FILE'")) << name;
   }
 }
