@@ -52,7 +52,9 @@ TEST(OptionTable, HasEveryOptionOnce) {
                                                "dilation",
                                                "not-leaves",
                                                "leaves-colour",
-                                               "leaf-colour"};
+                                               "leaf-colour",
+                                               "up",
+                                               "allow-outside"};
   std::set<std::string_view> found;
   for (const OptionRow& row : option_table()) {
     EXPECT_TRUE(found.insert(row.name).second) << row.name << " stands twice";
@@ -123,6 +125,8 @@ TEST(Names, FollowTheEnumerations) {
   EXPECT_EQ(name(DensitySource::grid), "grid");
   EXPECT_EQ(name(Preset::paper_128), "paper-128");
   EXPECT_EQ(name(Preset::film), "film");
+  EXPECT_EQ(name(Up::y), "y");
+  EXPECT_EQ(name(Up::z), "z");
   EXPECT_EQ(name(Hollows::fill), "fill");
   EXPECT_EQ(name(Hollows::keep), "keep");
 }
