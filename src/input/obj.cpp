@@ -234,9 +234,17 @@ TreeModel read_obj(ByteSpan bytes, const std::string& file, const Companions& co
     input_error(file, "", "is UTF-16 text", "Save it as UTF-8.");
   }
   std::string text = obj_text(written);
+  std::vector<std::string> warnings;
+  ObjMaterials materials = read_material_libraries(text, companions, warnings);
+  TreeModel tree = read_obj_text(std::move(text), file, std::move(materials), companions);
+  tree.warnings.insert(tree.warnings.begin(), warnings.begin(), warnings.end());
+  return tree;
+}
+
+TreeModel read_obj_text(std::string text, const std::string& file, ObjMaterials materials,
+                        const Companions& companions) {
   TreeModel tree;
   const ObjVertices vertices = read_obj_vertices(text, file, tree.warnings);
-  ObjMaterials materials = read_material_libraries(text, companions, tree.warnings);
   Collector obj(file, materials);
   obj.run(std::move(text));
   if (obj.parts.empty()) {

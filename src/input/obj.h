@@ -5,6 +5,7 @@
 
 #include "input/companions.h"
 #include "input/file_bytes.h"
+#include "input/obj_materials.h"
 #include "leafhull/tree.h"
 
 namespace leafhull {
@@ -14,5 +15,9 @@ namespace leafhull {
 /// @param file as messages call it; @param companions material libraries and textures.
 /// @throws Error input.
 TreeModel read_obj(ByteSpan bytes, const std::string& file, const Companions& companions);
+
+/// As read_obj, from `obj_text`, with the materials of its libraries.
+TreeModel read_obj_text(std::string text, const std::string& file, ObjMaterials materials,
+                        const Companions& companions);
 
 }  // namespace leafhull

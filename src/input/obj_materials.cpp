@@ -156,17 +156,21 @@ ObjMaterials read_material_libraries(std::string_view obj, const Companions& com
   for (const std::string& name : names) {
     try {
       const Bytes bytes = read_companion(companions, name, warnings);
-      std::istringstream stream(white_unless_told(obj_text(text_of(bytes))));
-      const std::size_t first = result.materials.size();
-      std::string warning, error;
-      tinyobj_double::LoadMtl(&result.by_name, &result.materials, &stream, &warning, &error);
-      set_opacities(std::span(result.materials).subspan(first), name, warnings);
+      result.add_library(text_of(bytes), name, warnings);
     } catch (const FileError& error) {
       warnings.push_back("mtllib " + in_quotes(name) + " not read: " + error.what());
     }
   }
-  result.in_libraries = result.materials.size();
   return result;
+}
+
+void ObjMaterials::add_library(std::string_view written, const std::string& name,
+                               std::vector<std::string>& warnings) {
+  std::istringstream stream(white_unless_told(obj_text(written)));
+  std::string warning, error;
+  tinyobj_double::LoadMtl(&by_name, &materials, &stream, &warning, &error);
+  set_opacities(std::span(materials).subspan(in_libraries), name, warnings);
+  in_libraries = materials.size();
 }
 
 int ObjMaterials::find_or_add(const std::string& name) {

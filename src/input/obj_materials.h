@@ -18,6 +18,10 @@ struct ObjMaterials {
   std::map<std::string, int> by_name;
   std::size_t in_libraries = 0;  ///< how many of them
 
+  /// Adds those of a library. @param warnings as read_material_libraries.
+  void add_library(std::string_view written, const std::string& name,
+                   std::vector<std::string>& warnings);
+
   /// The index of a material; one that no library has is added, for its name alone can tell leaves.
   int find_or_add(const std::string& name);
 };

@@ -16,12 +16,14 @@ namespace {
 
 }  // namespace
 
-Lines::Lines(const std::filesystem::path& file) : file_(file), stream_(file, std::ios::binary) {
-  if (!stream_) fail(file_, {errno, std::generic_category()});
+std::ifstream open_text(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) fail(file, {errno, std::generic_category()});
   std::error_code unknown;
-  if (std::filesystem::is_directory(file_, unknown)) {
-    fail(file_, std::make_error_code(std::errc::is_a_directory));
+  if (std::filesystem::is_directory(file, unknown)) {
+    fail(file, std::make_error_code(std::errc::is_a_directory));
   }
+  return stream;
 }
 
 bool Lines::next() {

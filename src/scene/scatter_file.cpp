@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/scatter_file.h"
 
+#include <fstream>
+#include <istream>
 #include <map>
 #include <system_error>
 #include <unordered_map>
@@ -57,10 +59,10 @@ class TreeFiles {
 };
 
 template <class Rows>
-Scene read_rows(const fs::path& file, Rows rows) {
+Scene read_rows(std::istream& text, const fs::path& file, Rows rows) {
   SceneBuilder builder(file);
   TreeFiles tree_files(file);
-  Lines lines(file);
+  Lines lines(text, file);
   ScatterRow row;
   const auto model = [&] { return tree_files.number(row.model, builder); };
   const auto place = [&] { return "line " + std::to_string(lines.number()); };
@@ -80,7 +82,18 @@ Scene read_rows(const fs::path& file, Rows rows) {
 
 }  // namespace
 
-Scene read_csv_scene(const fs::path& file) { return read_rows(file, CsvRows()); }
-Scene read_jsonl_scene(const fs::path& file) { return read_rows(file, JsonRows()); }
+Scene read_csv_scene(const fs::path& file) {
+  std::ifstream text = open_text(file);
+  return read_csv_text(text, file);
+}
+
+Scene read_jsonl_scene(const fs::path& file) {
+  std::ifstream text = open_text(file);
+  return read_rows(text, file, JsonRows());
+}
+
+Scene read_csv_text(std::istream& text, const fs::path& file) {
+  return read_rows(text, file, CsvRows());
+}
 
 }  // namespace leafhull

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <istream>
 
 #include "leafhull/scene.h"
 
@@ -10,5 +11,8 @@ namespace leafhull {
 /// @throws Error input: the file, the line and what is wrong.
 Scene read_csv_scene(const std::filesystem::path& file);
 Scene read_jsonl_scene(const std::filesystem::path& file);
+
+/// As read_csv_scene, of the text of a file in that place.
+Scene read_csv_text(std::istream& text, const std::filesystem::path& file);
 
 }  // namespace leafhull
