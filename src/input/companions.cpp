@@ -110,7 +110,9 @@ Companions::Found Companions::find(std::string_view written) const {
                         in_quotes(found->string())};
   }
   if (outside && !allow_outside_) {
-    throw FileError("it lies outside of the file's folder, and there is none of its name in it");
+    throw FileError(
+        "it lies outside of the file's folder, which --allow-outside permits, and there is none of "
+        "its name in it");
   }
   throw FileError(std::make_error_code(std::errc::no_such_file_or_directory).message());
 }

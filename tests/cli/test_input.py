@@ -82,3 +82,61 @@ class Input(CommandTest):
         self.assertIn("missing.png", result.stderr)
         quiet = self.succeed("extract", path, "-o", self.shape, "--preset", "paper-32", "-q")
         self.assertEqual(quiet.stderr, "")
+
+    def test_files_outside_of_the_folder_are_read_when_they_may(self):
+        def move_out(document):
+            document["buffers"][0]["uri"] = "../elsewhere.bin"
+
+        document, binary = glb.unpack(glb.tree(*glb.cards(), change=move_out))
+        inner = self.folder / "inner"
+        inner.mkdir()
+        (self.folder / "elsewhere.bin").write_bytes(binary)
+        path = inner / "tree.gltf"
+        path.write_text(glb.json.dumps(document))
+        self.fail_with(3, ["elsewhere.bin", "--allow-outside"], "inspect", path)
+        self.succeed("inspect", path, "--allow-outside")
+        (inner / "elsewhere.bin").write_bytes(binary)
+        result = self.succeed("inspect", path)
+        self.assertIn("is taken from the file's own folder", result.stderr)
+
+    def test_up_stands_a_tree_up(self):
+        positions, triangles = glb.cards()
+        tall = [[x, y, 3 * z] for x, y, z in positions]
+        path = self.input("lying.glb", glb.tree(tall, triangles))
+
+        def height(*flags):
+            page = glb.json.loads(self.succeed("inspect", path, "--json", *flags).stdout)
+            return page["leaves"]["crown"]["high"][1] - page["leaves"]["crown"]["low"][1]
+
+        self.assertAlmostEqual(height("--up", "z") / height(), 3, delta=0.3)
+        self.assertEqual(height("--up", "y"), height())
+        self.fail_with(2, ["--up"], "inspect", path, "--up", "x")
+
+    def test_a_scene_of_trees_that_lie_stands_up(self):
+        positions, triangles = glb.cards()
+        tall = [[x, y, 3 * z] for x, y, z in positions]
+        lying = self.input("lying.glb", glb.tree(tall, triangles))
+        scene = self.input("stand.csv", f"model,x,y,z\n{lying.name},0,0,0\n".encode())
+        flags = ("--merge", "none", "--voxel-size", "0.3")
+        for name, up in (("as-it-is", ()), ("upright", ("--up", "z"))):
+            self.succeed("forest", scene, "-o", self.out / name, *flags, *up)
+        boxes = []
+        for name in ("as-it-is", "upright"):
+            document, _ = glb.unpack((self.out / name / "forest.glb").read_bytes())
+            accessor = document["accessors"][
+                document["meshes"][0]["primitives"][0]["attributes"]["POSITION"]
+            ]
+            boxes.append((accessor["min"], accessor["max"]))
+        (low, high), (turned_low, turned_high) = boxes
+        self.assertAlmostEqual(turned_high[1], high[2], delta=0.3)
+        self.assertAlmostEqual(turned_low[2], -high[1], delta=0.3)
+        self.assertGreater(turned_high[1] - turned_low[1], 2 * (high[1] - low[1]))
+
+    def test_what_is_not_read_is_converted(self):
+        blend = self.input("oak.blend", b"BLENDER-v300")
+        result = self.fail_with(3, ["Blender file", "blender -b"], "inspect", blend)
+        self.assertIn("export_scene.gltf(filepath='oak.glb')", result.stderr)
+
+    def test_bytes_after_the_end_are_passed_over(self):
+        path = self.input("tail.glb", glb.tree(*glb.cards()) + b"tail")
+        self.assertIn("4 bytes after the end", self.succeed("inspect", path).stderr)
