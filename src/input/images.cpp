@@ -24,7 +24,7 @@ constexpr std::int64_t kMostPixels = 8192 * 8192;
 /// Of what stb_image reads, PNG packs the most: 1032 bytes of 8 pixels into one.
 constexpr std::int64_t kMostPixelsPerByte = 8 * 1032;
 
-enum class Format { stb, jpeg, webp, unread };
+enum class Format { stb, png, jpeg, webp, unread };
 
 struct Signature {
   std::size_t at;
@@ -35,7 +35,7 @@ struct Signature {
 
 // stb_image's readers of rarer formats are not meant for files from strangers.
 constexpr std::array kSignatures{
-    Signature{0, "\x89PNG", Format::stb, "PNG"},
+    Signature{0, "\x89PNG", Format::png, "PNG"},
     Signature{0, "\xFF\xD8\xFF", Format::jpeg, "JPEG"},
     Signature{0, "BM", Format::stb, "BMP"},
     Signature{8, "WEBP", Format::webp, "WebP"},
@@ -73,6 +73,7 @@ bool is_tga(ByteSpan bytes) {
   return kHeader + bytes[0] + palette + data <= bytes.size();
 }
 
+constexpr const char* kCutOff = "it is cut off";
 constexpr std::string_view kRead = "; PNG, JPEG, WebP, BMP and TGA are read";
 
 std::string why_unread(const Signature* signature) {
@@ -122,6 +123,20 @@ Image decode_webp(ByteSpan bytes, std::string& reason) {
   return image;
 }
 
+/// Whether no chunk of a PNG file is longer than the file, up to the last: stb_image takes memory
+/// for one before it reads it.
+bool has_whole_chunks(ByteSpan png) {
+  std::size_t at = 8;
+  while (at + 12 <= png.size()) {
+    std::size_t length = 0;
+    for (const std::uint8_t byte : png.subspan(at, 4)) length = 256 * length + byte;
+    if (length > png.size() - at - 12) return false;
+    if (text_of(png.subspan(at + 4, 4)) == "IEND") return true;
+    at += 12 + length;
+  }
+  return false;
+}
+
 /// stb_image quotes the file where a chunk is unknown to it: that may be no text at all.
 std::string why_stb_failed() {
   const char* told = stbi_failure_reason();
@@ -139,7 +154,7 @@ Image decode_stb(ByteSpan bytes, std::string& reason) {
   }
   if (is_too_large(image, reason)) return {};
   if (pixels_of(image) == 0 || pixels_of(image) > kMostPixelsPerByte * length) {
-    reason = pixels_of(image) == 0 ? "it has no pixels" : "it is cut off";
+    reason = pixels_of(image) == 0 ? "it has no pixels" : kCutOff;
     return {};
   }
   const std::unique_ptr<stbi_uc, void (*)(void*)> rgba(
@@ -161,6 +176,10 @@ Image decode_image(ByteSpan bytes, const std::string& name, std::string& reason)
   const Format format = signature ? signature->format : is_named_tga ? Format::stb : Format::unread;
   if (bytes.size() > INT_MAX || format == Format::unread) {
     reason = why_unread(signature);
+    return {};
+  }
+  if (format == Format::png && !has_whole_chunks(bytes)) {
+    reason = kCutOff;
     return {};
   }
   if (format == Format::jpeg && !has_sound_tables(bytes)) {

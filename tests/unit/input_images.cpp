@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <webp/encode.h>
 
+#include <filesystem>
 #include <fstream>
 #include <limits>
 #include <numbers>
@@ -253,6 +254,34 @@ TEST(Images, TellWhereMostIsMissing) {
   std::string reason;
   EXPECT_TRUE(decode_image(large, "leaf.jpg", reason).empty());
   EXPECT_EQ(reason, "it is cut off");
+}
+
+TEST(Images, OfPngHaveWholeChunks) {
+  const Bytes whole = png(2, 2, kPixels);
+  const auto reason_of = [](const Bytes& bytes) {
+    std::string reason;
+    decode_image(bytes, "leaf.png", reason);
+    return reason;
+  };
+  EXPECT_EQ(reason_of(whole), "");
+  Bytes huge = whole;
+  huge[33] = 0x7F;  // the length of IDAT, of 2 GiB
+  EXPECT_EQ(reason_of(huge), "it is cut off");
+  for (std::size_t length = 4; length < whole.size(); ++length) {
+    EXPECT_EQ(reason_of(Bytes(whole.begin(), whole.begin() + length)), "it is cut off");
+  }
+}
+
+TEST(Images, OfManyKindsAreRead) {
+  std::size_t count = 0;
+  const auto folder = std::filesystem::path(LEAFHULL_TEST_DATA) / "../fuzz/corpus/image";
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    std::string reason;
+    const std::string name = entry.path().filename().string();
+    EXPECT_FALSE(decode_image(read_file(entry.path()), name, reason).empty()) << name << reason;
+    ++count;
+  }
+  EXPECT_GT(count, 15u);
 }
 
 TEST(Images, OpacityGoesIntoAlpha) {
