@@ -8,18 +8,23 @@
 #include <array>
 #include <climits>
 #include <cstdint>
+#include <cstdlib>
 #include <memory>
 #include <string_view>
 
+#include "input/jpeg_tables.h"
 #include "text/file_name.h"
+#include "text/text.h"
 
 namespace leafhull {
 namespace {
 
 // A few bytes can claim any size; this is 256 MiB decoded.
 constexpr std::int64_t kMostPixels = 8192 * 8192;
+/// Of what stb_image reads, PNG packs the most: 1032 bytes of 8 pixels into one.
+constexpr std::int64_t kMostPixelsPerByte = 8 * 1032;
 
-enum class Format { stb, webp, unread };
+enum class Format { stb, png, jpeg, webp, unread };
 
 struct Signature {
   std::size_t at;
@@ -30,8 +35,8 @@ struct Signature {
 
 // stb_image's readers of rarer formats are not meant for files from strangers.
 constexpr std::array kSignatures{
-    Signature{0, "\x89PNG", Format::stb, "PNG"},
-    Signature{0, "\xFF\xD8\xFF", Format::stb, "JPEG"},
+    Signature{0, "\x89PNG", Format::png, "PNG"},
+    Signature{0, "\xFF\xD8\xFF", Format::jpeg, "JPEG"},
     Signature{0, "BM", Format::stb, "BMP"},
     Signature{8, "WEBP", Format::webp, "WebP"},
     Signature{0, "\xABKTX 20\xBB", Format::unread, "KTX2"},
@@ -53,6 +58,22 @@ const Signature* signature_of(ByteSpan bytes) {
   return found == kSignatures.end() ? nullptr : found;
 }
 
+/// Whether bytes may be TGA, which has no signature, and are enough for its pixels. stb_image
+/// leaves those that are missing as the memory was; where the second byte is larger, it tries the
+/// formats that are not meant for files from strangers.
+bool is_tga(ByteSpan bytes) {
+  constexpr std::size_t kHeader = 18;
+  if (bytes.size() < kHeader || bytes[1] > 1) return false;
+  const auto number = [&](std::size_t at) { return std::size_t{256} * bytes[at + 1] + bytes[at]; };
+  const auto bytes_for = [](std::size_t bits) { return (bits + 7) / 8; };
+  const std::size_t palette = bytes[1] * number(5) * bytes_for(bytes[7]);
+  const std::size_t pixels = number(12) * number(14), pixel = bytes_for(bytes[16]);
+  const bool has_runs = bytes[2] >= 9;  // of 128 pixels at the most
+  const std::size_t data = has_runs ? (pixels + 127) / 128 * (1 + pixel) : pixels * pixel;
+  return kHeader + bytes[0] + palette + data <= bytes.size();
+}
+
+constexpr const char* kCutOff = "it is cut off";
 constexpr std::string_view kRead = "; PNG, JPEG, WebP, BMP and TGA are read";
 
 std::string why_unread(const Signature* signature) {
@@ -64,8 +85,13 @@ std::string why_unread(const Signature* signature) {
   return "it is of the format " + std::string(signature->name) + std::string(kRead);
 }
 
+/// Negative, too, is the height of a BMP whose rows begin at the top.
+std::int64_t pixels_of(const Image& image) {
+  return std::abs(std::int64_t{image.width} * image.height);
+}
+
 bool is_too_large(const Image& image, std::string& reason) {
-  const bool too_large = static_cast<std::int64_t>(image.width) * image.height > kMostPixels;
+  const bool too_large = pixels_of(image) > kMostPixels;
   if (too_large) reason = "it is larger than 8192 x 8192 pixels";
   return too_large;
 }
@@ -97,20 +123,45 @@ Image decode_webp(ByteSpan bytes, std::string& reason) {
   return image;
 }
 
+/// Whether no chunk of a PNG file is longer than the file, up to the last: stb_image takes memory
+/// for one before it reads it.
+bool has_whole_chunks(ByteSpan png) {
+  std::size_t at = 8;
+  while (at + 12 <= png.size()) {
+    std::size_t length = 0;
+    for (const std::uint8_t byte : png.subspan(at, 4)) length = 256 * length + byte;
+    if (length > png.size() - at - 12) return false;
+    if (text_of(png.subspan(at + 4, 4)) == "IEND") return true;
+    at += 12 + length;
+  }
+  return false;
+}
+
+/// stb_image quotes the file where a chunk is unknown to it: that may be no text at all.
+std::string why_stb_failed() {
+  const char* told = stbi_failure_reason();
+  const std::string reason = told ? printable(told) : "";
+  return reason.empty() ? "its data is damaged" : reason;
+}
+
 Image decode_stb(ByteSpan bytes, std::string& reason) {
   Image image;
   const int length = static_cast<int>(bytes.size());
   int channels = 0;
   if (!stbi_info_from_memory(bytes.data(), length, &image.width, &image.height, &channels)) {
-    reason = stbi_failure_reason();
+    reason = why_stb_failed();
     return {};
   }
   if (is_too_large(image, reason)) return {};
+  if (pixels_of(image) == 0 || pixels_of(image) > kMostPixelsPerByte * length) {
+    reason = pixels_of(image) == 0 ? "it has no pixels" : kCutOff;
+    return {};
+  }
   const std::unique_ptr<stbi_uc, void (*)(void*)> rgba(
       stbi_load_from_memory(bytes.data(), length, &image.width, &image.height, &channels, 4),
       &stbi_image_free);
   if (!rgba) {
-    reason = stbi_failure_reason();
+    reason = why_stb_failed();
     return {};
   }
   image.rgba.assign(rgba.get(), rgba.get() + bytes_of(image));
@@ -121,10 +172,18 @@ Image decode_stb(ByteSpan bytes, std::string& reason) {
 
 Image decode_image(ByteSpan bytes, const std::string& name, std::string& reason) {
   const Signature* signature = signature_of(bytes);
-  const bool is_tga = !signature && lower_extension(name) == ".tga";  // which has none
-  const Format format = signature ? signature->format : is_tga ? Format::stb : Format::unread;
+  const bool is_named_tga = lower_extension(name) == ".tga" && is_tga(bytes);
+  const Format format = signature ? signature->format : is_named_tga ? Format::stb : Format::unread;
   if (bytes.size() > INT_MAX || format == Format::unread) {
     reason = why_unread(signature);
+    return {};
+  }
+  if (format == Format::png && !has_whole_chunks(bytes)) {
+    reason = kCutOff;
+    return {};
+  }
+  if (format == Format::jpeg && !has_sound_tables(bytes)) {
+    reason = "its JPEG data is damaged";
     return {};
   }
   return format == Format::webp ? decode_webp(bytes, reason) : decode_stb(bytes, reason);

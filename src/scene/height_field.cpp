@@ -40,7 +40,7 @@ HeightField::HeightField(const HeightMap& map) : height_(map.height) {
   }
   const std::unique_ptr<stbi_us, void (*)(void*)> pixels(
       stbi_load_16_from_memory(bytes.data(), size, &width_, &rows_, nullptr, 1), &stbi_image_free);
-  if (!pixels) fail(map.picture, std::string("is damaged: ") + stbi_failure_reason());
+  if (!pixels) fail(map.picture, "is damaged: " + printable(stbi_failure_reason()));
   grey_.assign(pixels.get(), pixels.get() + static_cast<std::size_t>(width_) * rows_);
 }
 

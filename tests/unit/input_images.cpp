@@ -2,7 +2,9 @@
 #include <gtest/gtest.h>
 #include <webp/encode.h>
 
+#include <filesystem>
 #include <fstream>
+#include <limits>
 #include <numbers>
 
 #include "glb_builder.h"
@@ -51,6 +53,18 @@ TEST(Images, DecodesOnlyWhatAPrimitiveShows) {
   const TreeModel tree = read(b);
   EXPECT_EQ(tree.images.size(), 1u);
   EXPECT_EQ(tree.materials[1].base_color_image, -1);
+}
+
+TEST(Images, TellsInOneLineWhyThereIsNone) {
+  const Bytes whole = png(2, 2, kPixels);
+  for (const std::string chunk : {std::string(4, '\0'), std::string("A\nB\n")}) {
+    Bytes file = whole;
+    std::copy(chunk.begin(), chunk.end(), file.begin() + 37);  // for IDAT
+    std::string reason;
+    EXPECT_TRUE(decode_image(file, "x.png", reason).empty());
+    EXPECT_FALSE(reason.empty());
+    EXPECT_EQ(reason.find('\n'), std::string::npos) << reason;
+  }
 }
 
 TEST(Images, WarnsOfMissingAndBrokenTextures) {
@@ -142,6 +156,132 @@ TEST(Images, OfTgaAreKnownByTheirName) {
   std::string reason;
   EXPECT_EQ(decode_image(tga, "LEAF.TGA", reason).rgba, (Bytes{1, 2, 3, 77})) << reason;
   EXPECT_TRUE(decode_image(tga, "leaf", reason).empty());
+}
+
+TEST(Images, OfTgaHaveAllTheirPixelsAndNoOtherFormat) {
+  const auto reason_of = [](const Bytes& bytes) {
+    std::string reason;
+    EXPECT_TRUE(decode_image(bytes, "leaf.tga", reason).empty());
+    return reason;
+  };
+  // Two pixels of which one is there; as a run, one pixel of 129.
+  const std::string unknown = reason_of({});
+  EXPECT_EQ(reason_of({0, 0, 2, 0, 0, 0, 0, 0, 0, 0, 0, 0, 2, 0, 1, 0, 32, 8, 3, 2, 1, 7}),
+            unknown);
+  EXPECT_EQ(reason_of({0, 0, 10, 0, 0, 0, 0, 0, 0, 0, 0, 0, 129, 0, 1, 0, 32, 8, 255, 3, 2, 1, 7}),
+            unknown);
+  const std::string pnm = "P6 1 1 255\nrgbrgbrgbrgbrgb";
+  EXPECT_EQ(reason_of(Bytes(pnm.begin(), pnm.end())), unknown);
+}
+
+/// 8 x 8 grey, all of one value, with a code in either table.
+Bytes jpeg() {
+  Bytes bytes{0xFF, 0xD8, 0xFF, 0xDB, 0, 67, 0};
+  bytes.insert(bytes.end(), 64, 1);
+  const Bytes rest{0xFF, 0xC0, 0, 11, 8,    0, 8, 0, 8,  1, 1,    0x11, 0,  // frame
+                   0xFF, 0xC4, 0, 20, 0,    1, 0, 0, 0,  0, 0,    0,    0,  // codes
+                   0,    0,    0, 0,  0,    0, 0, 0, 0,                     //
+                   0xFF, 0xC4, 0, 20, 0x10, 1, 0, 0, 0,  0, 0,    0,    0,  // codes
+                   0,    0,    0, 0,  0,    0, 0, 0, 0,                     //
+                   0xFF, 0xDA, 0, 8,  1,    1, 0, 0, 63, 0, 0x3F,           // scan
+                   0xFF, 0xD9};
+  bytes.insert(bytes.end(), rest.begin(), rest.end());
+  return bytes;
+}
+
+TEST(Images, OfJpegHaveSoundTables) {
+  constexpr std::size_t kQuantisation = 2, kFrame = 71, kCodes = 84, kOtherCodes = 106;
+  const auto is_read = [](const Bytes& bytes) {
+    std::string reason;
+    const bool read = !decode_image(bytes, "leaf.jpg", reason).empty();
+    EXPECT_EQ(reason, read ? "" : "its JPEG data is damaged");
+    return read;
+  };
+  EXPECT_TRUE(is_read(jpeg()));
+  Bytes padded = jpeg();
+  padded.insert(padded.begin() + kFrame, {0, 0, 0xFF, 0xFF, 0xFE, 0, 4, 0xFF, 0xC4, 0xFF});
+  EXPECT_TRUE(is_read(padded));  // a comment that looks like a table
+  for (const std::size_t table : {kCodes, kOtherCodes}) {
+    Bytes more = jpeg();
+    more[table + 12] = more[table + 13] = 200;  // of 401 codes
+    EXPECT_FALSE(is_read(more));
+    Bytes none = jpeg();
+    none.erase(none.begin() + table, none.begin() + table + 22);
+    EXPECT_FALSE(is_read(none));
+  }
+  Bytes unquantised = jpeg();
+  unquantised.erase(unquantised.begin() + kQuantisation, unquantised.begin() + kFrame);
+  EXPECT_FALSE(is_read(unquantised));
+  Bytes late = jpeg();  // the second scan's
+  late.insert(late.end() - 2, {0xFF, 0xC4, 0, 20, 0, 200, 200});
+  EXPECT_FALSE(is_read(late));
+}
+
+Bytes bmp(std::int32_t width, std::int32_t height) {
+  Bytes bytes{'B', 'M', 0, 0, 0, 0, 0, 0, 0, 0, 54, 0, 0, 0, 40, 0, 0, 0};
+  for (const std::int32_t side : {width, height}) {
+    const Bytes number = bytes_of(std::vector<std::int32_t>{side});
+    bytes.insert(bytes.end(), number.begin(), number.end());
+  }
+  bytes.insert(bytes.end(), {1, 0, 24, 0});
+  bytes.resize(54);
+  bytes.insert(bytes.end(), {3, 2, 1, 0});
+  return bytes;
+}
+
+TEST(Images, OfBmpMayBeginAtTheTopButNotBeEmptyOrHuge) {
+  const auto reason_of = [](const Bytes& bytes) {
+    std::string reason;
+    EXPECT_TRUE(decode_image(bytes, "leaf.bmp", reason).empty());
+    return reason;
+  };
+  std::string reason;
+  for (const int height : {1, -1}) {
+    const Image image = decode_image(bmp(1, height), "leaf.bmp", reason);
+    EXPECT_EQ(image.rgba, (Bytes{1, 2, 3, 255})) << reason;
+    EXPECT_EQ(image.height, 1);
+  }
+  EXPECT_EQ(reason_of(bmp(7, 0)), "it has no pixels");
+  EXPECT_EQ(reason_of(bmp(16384, -32768)), "it is larger than 8192 x 8192 pixels");
+  EXPECT_EQ(reason_of(bmp(1, std::numeric_limits<std::int32_t>::min())),
+            "it is larger than 8192 x 8192 pixels");
+  EXPECT_EQ(reason_of(bmp(8192, -8192)), "it is cut off");
+}
+
+TEST(Images, TellWhereMostIsMissing) {
+  Bytes large = jpeg();
+  large[71 + 5] = large[71 + 7] = 0x10;  // 4104 x 4104
+  std::string reason;
+  EXPECT_TRUE(decode_image(large, "leaf.jpg", reason).empty());
+  EXPECT_EQ(reason, "it is cut off");
+}
+
+TEST(Images, OfPngHaveWholeChunks) {
+  const Bytes whole = png(2, 2, kPixels);
+  const auto reason_of = [](const Bytes& bytes) {
+    std::string reason;
+    decode_image(bytes, "leaf.png", reason);
+    return reason;
+  };
+  EXPECT_EQ(reason_of(whole), "");
+  Bytes huge = whole;
+  huge[33] = 0x7F;  // the length of IDAT, of 2 GiB
+  EXPECT_EQ(reason_of(huge), "it is cut off");
+  for (std::size_t length = 4; length < whole.size(); ++length) {
+    EXPECT_EQ(reason_of(Bytes(whole.begin(), whole.begin() + length)), "it is cut off");
+  }
+}
+
+TEST(Images, OfManyKindsAreRead) {
+  std::size_t count = 0;
+  const auto folder = std::filesystem::path(LEAFHULL_TEST_DATA) / "../fuzz/corpus/image";
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    std::string reason;
+    const std::string name = entry.path().filename().string();
+    EXPECT_FALSE(decode_image(read_file(entry.path()), name, reason).empty()) << name << reason;
+    ++count;
+  }
+  EXPECT_GT(count, 15u);
 }
 
 TEST(Images, OpacityGoesIntoAlpha) {
