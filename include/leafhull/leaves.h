@@ -125,7 +125,7 @@ struct LeafChoice {
   /// The leaves' mean linear colour by visible area: texture times factor times vertex colour. None
   /// where the file tells no colour.
   std::optional<Vec3f> colour;
-  bool is_tinted = false;            ///< it is the options' and every leaf's
+  bool is_tinted = false;            ///< the colour is --leaf-colour's
   LeafKind kind = LeafKind::broad;   ///< of most of them, as names say
   std::string told;                  ///< what was taken and what passed over, and why; one line
   std::vector<std::string> options;  ///< those that would take the likeliest candidates

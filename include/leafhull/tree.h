@@ -53,7 +53,7 @@ inline constexpr Transform kIdentity{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}}
 struct TreeNode {
   std::string name;
   int parent = -1;  ///< into TreeModel::nodes, -1: none
-  int level = 0;    ///< of detail, as MSFT_lod tells it: 0 the finest, or not told
+  int level = 0;    ///< of detail, as MSFT_lod or an LOD group tells it: 0 the finest, or not told
 };
 
 /// A primitive placed in the scene.
@@ -83,8 +83,8 @@ struct ReadOptions {
   bool allow_outside = false;  ///< textures and buffers may lie outside of the file's folder
 };
 
-/// Reads glTF 2.0 (.glb, .gltf) or Wavefront OBJ; the default scene's nodes become instances,
-/// EXT_mesh_gpu_instancing included. SPEC: 1.
+/// Reads glTF 2.0 (.glb, .gltf), FBX or Wavefront OBJ; the default scene's nodes become instances,
+/// EXT_mesh_gpu_instancing included. FBX comes in metres and upright. SPEC: 1.
 /// @throws Error input: the file, its name, and what is wrong at which place in it.
 TreeModel read_tree(const std::filesystem::path& path, const ReadOptions& options = {});
 

@@ -147,7 +147,7 @@ void print_fact(std::string label, const std::string& value) {
 std::string likely_unit(double height) {
   if (height > 8000) return "millimetres?";
   if (height > 80) return "centimetres?";
-  if (height < 0.3) return "a hundredth of its size?";
+  if (height < 0.3) return "in hundreds of metres?";
   return {};
 }
 

@@ -117,11 +117,11 @@ std::vector<Flag> scatter_flags() {
   };
 }
 
-/// --leaves alone: the others of its group do not move a tree.
-std::vector<Flag> leaves_flag() {
-  std::vector<Flag> flags = all_of({option_flags("Input"), option_flags("Leaves")});
+/// Of what tells the leaves --leaves alone: the others do not move a tree.
+std::vector<Flag> input_flags() {
+  std::vector<Flag> flags = option_flags("Leaves");
   std::erase_if(flags, [](const Flag& flag) { return flag.spelling != "--leaves"; });
-  return flags;
+  return all_of({option_flags("Input"), flags});
 }
 
 void check_scatter_arguments(const Arguments& arguments) {
@@ -178,7 +178,7 @@ Verb scatter_verb() {
           .takes_trees = true,
           .operand = "TREE...",
           .operand_help = "one or more .glb, .gltf, .fbx or .obj files, each equally often",
-          .flags = all_of({scatter_flags(), leaves_flag(), console_flags(), help_flags()}),
+          .flags = all_of({scatter_flags(), input_flags(), console_flags(), help_flags()}),
           .run = run_scatter};
 }
 

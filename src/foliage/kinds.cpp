@@ -20,7 +20,9 @@ using enum LeafKind;
 
 // What hides a word inside of itself stands before it. Sources: dictionaries.
 constexpr auto kKindWords = std::to_array<KindWord>({
-    {"pineapple", broad},   {"prickly pear", broad}, {"coconut", frond},
+    {"pineapple", broad},   {"oak", broad, true},    {"oaks", broad, true},
+    {"maple", broad},       {"palmat", broad},  // Acer palmatum
+    {"birch", broad},       {"prickly pear", broad}, {"coconut", frond},
     {"palm", frond},  // and palme, palmera, palmeira, palmier, palma
     {"frond", frond},       {"пальм", frond},        {"椰", frond},
     {"棕榈", frond},        {"ヤシ", frond},         {"야자", frond},
@@ -32,16 +34,15 @@ constexpr auto kKindWords = std::to_array<KindWord>({
     {"christmas", needle},  {"xmas", needle},        {"nadel", needle},
     {"fichte", needle},     {"tanne", needle},       {"kiefer", needle},
     {"larche", needle},     {"laerche", needle},     {"naalden", needle},
-    {"spar", needle, true}, {"gran", needle, true},  {"aiguille", needle},
-    {"sapin", needle},      {"epicea", needle},      {"pin", needle, true},
-    {"aguja", needle},      {"pino", needle, true},  {"abeto", needle},
-    {"agulha", needle},     {"pinheiro", needle},    {"aghi", needle, true},
-    {"abete", needle},      {"sosna", needle},       {"swierk", needle},
-    {"cam", needle, true},  {"kuusi", needle},       {"neulas", needle},
-    {"хво", needle},        {"сосн", needle},        {"ель", needle, true},
-    {"елк", needle},        {"松", needle},          {"杉", needle},
-    {"소나무", needle},     {"oak", broad, true},    {"birch", broad},
-    {"maple", broad},       {"broadleaf", broad},
+    {"spar", needle, true}, {"aiguille", needle},    {"sapin", needle},
+    {"epicea", needle},     {"pin", needle, true},   {"aguja", needle},
+    {"pino", needle, true}, {"abeto", needle},       {"agulha", needle},
+    {"pinheiro", needle},   {"aghi", needle, true},  {"abete", needle},
+    {"sosna", needle},      {"swierk", needle},      {"kuusi", needle},
+    {"neulas", needle},     {"хво", needle},         {"сосн", needle},
+    {"ель", needle, true},  {"елка", needle, true},  {"елки", needle, true},
+    {"松", needle},         {"杉", needle},          {"소나무", needle},
+    {"broadleaf", broad},
 });
 
 bool holds(std::string_view text, const KindWord& word) {

@@ -16,6 +16,9 @@ namespace fs = std::filesystem;
 constexpr std::array<std::string_view, 6> kTextureFolders{"textures", "texture", "tex",
                                                           "maps",     "images",  "materials"};
 
+/// Of a path's end, that are looked for.
+constexpr std::size_t kMostParts = 6;
+
 std::string lower(std::string text) {
   std::ranges::transform(text, text.begin(), [](char c) {
     return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
@@ -56,10 +59,11 @@ bool is_file(const fs::path& path) {
 std::optional<fs::path> entry_of(const fs::path& folder, const std::string& name) {
   std::error_code error;
   if (fs::exists(folder / name, error)) return folder / name;
+  const std::string wanted = lower(name);
   std::optional<fs::path> found;
   for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
        entry.increment(error)) {
-    const bool fits = lower(entry->path().filename().string()) == lower(name);
+    const bool fits = lower(entry->path().filename().string()) == wanted;
     if (fits && (!found || entry->path() < *found)) found = entry->path();
   }
   return found;
@@ -86,7 +90,8 @@ std::optional<fs::path> Companions::beside(const fs::path& written) const {
   }
   if (names.empty()) return std::nullopt;
   const fs::path folder = tree_file_->parent_path();
-  for (std::size_t first = 0; first < names.size(); ++first) {
+  const std::size_t whole = names.size() > kMostParts ? names.size() - kMostParts : 0;
+  for (std::size_t first = whole; first < names.size(); ++first) {
     if (auto found = file_of(folder, std::span(names).subspan(first))) return found;
   }
   std::vector<std::string> folders(kTextureFolders.begin(), kTextureFolders.end());
@@ -97,13 +102,28 @@ std::optional<fs::path> Companions::beside(const fs::path& written) const {
   return std::nullopt;
 }
 
+void Companions::require_inside(const fs::path& file) const {
+  if (allow_outside_) return;
+  std::error_code error;
+  const fs::path folder = tree_file_->parent_path();
+  const fs::path home = fs::weakly_canonical(folder.empty() ? fs::path(".") : folder, error);
+  const fs::path way = fs::weakly_canonical(file, error).lexically_relative(home);
+  if (error || way.empty() || *way.begin() == "..") {
+    throw FileError("it leads out of the file's folder, which --allow-outside permits");
+  }
+}
+
 Companions::Found Companions::find(std::string_view written) const {
   if (!tree_file_) throw FileError("files beside this one are not read");
   const fs::path path = path_of(written);
   const bool outside = is_outside(path);
   const fs::path as_written = tree_file_->parent_path() / path;
-  if ((!outside || allow_outside_) && is_file(as_written)) return {as_written, {}};
+  if ((!outside || allow_outside_) && is_file(as_written)) {
+    require_inside(as_written);
+    return {as_written, {}};
+  }
   if (const auto found = beside(path)) {
+    require_inside(*found);
     return {*found, in_quotes(written) +
                         (outside ? " is taken from the file's own folder: "
                                  : " is not there; taken instead is ") +

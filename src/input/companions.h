@@ -32,6 +32,8 @@ class Companions {
   Found find(std::string_view written) const;
 
  private:
+  /// @throws FileError: a link leads out of the folder, and may not.
+  void require_inside(const std::filesystem::path& file) const;
   std::optional<std::filesystem::path> beside(const std::filesystem::path& written) const;
 
   std::optional<std::filesystem::path> tree_file_;

@@ -43,19 +43,18 @@ bool has_extension(const Foreign& foreign, const std::string& extension) {
 }
 
 /// As a string of Python within double quotes of a shell.
-std::string for_python(const std::string& name) {
-  std::string text;
-  for (const char c : name) {
-    if (c == '\'' || c == '\\' || c == '"' || c == '$' || c == '`') return "FILE";
-    text += c;
-  }
-  return std::string(printable(text, 200));
+std::string for_python(const std::string& name, std::string_view instead) {
+  const auto is_special = [](unsigned char c) {
+    return c < ' ' ||
+           std::string_view("'\\\"$`!").find(static_cast<char>(c)) != std::string_view::npos;
+  };
+  return std::ranges::any_of(name, is_special) ? std::string(instead) : name;
 }
 
 /// Blender's command that makes a .glb of it.
 std::string conversion(const Foreign& foreign, const std::filesystem::path& path) {
-  const std::string file = for_python(path.string());
-  const std::string glb = for_python(path.stem().string() + ".glb");
+  const std::string file = for_python(path.string(), "FILE");
+  const std::string glb = for_python(path.stem().string() + ".glb", "FILE.glb");
   std::string open = "blender -b --python-expr \"import bpy; ";
   if (foreign.import.empty()) {
     open = "blender -b '" + file + "' --python-expr \"import bpy; ";
@@ -77,7 +76,10 @@ std::optional<ForeignFormat> foreign_format(ByteSpan bytes, const std::filesyste
   const auto* found = std::ranges::find_if(kForeign, is_it);
   if (found == kForeign.end()) return std::nullopt;
   ForeignFormat format{std::string(found->name), std::string(found->remedy)};
-  if (format.remedy.empty()) format.remedy = "Convert it: " + conversion(*found, path);
+  if (format.remedy.empty()) {
+    format.remedy = "Convert it: " + conversion(*found, path);
+    if (found->import == "wm.collada_import") format.remedy += " (Blender 4.5 or older)";
+  }
   return format;
 }
 

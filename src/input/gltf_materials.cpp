@@ -153,6 +153,7 @@ int MaterialReader::read_image(int index, const std::string& texture) {
       reason = error.what();
     }
   }
+  keep_small(tree_.images, image, reason);
   if (!reason.empty()) tree_.warnings.push_back(place + ": texture not read: " + reason);
   if (is_index(index, file_.model.images.size())) {
     const tinygltf::Image& source = file_.model.images[index];

@@ -30,7 +30,7 @@ std::string place_of(const PlacedMesh& placed);
 
 bool is_finite(const Transform& transform);
 
-/// The meshes that the default scene places, each once.
+/// The meshes that the default scene places, each once, and once more for each way it is posed.
 struct GltfMeshes {
   TreeModel tree;                                        ///< without instances
   std::map<int, std::vector<std::uint32_t>> primitives;  ///< of the tree by the mesh's number, in

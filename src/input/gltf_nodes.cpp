@@ -205,10 +205,7 @@ std::map<MeshUse, int> mesh_uses(GltfFile& file) {
     const int number = use.is_plain() ? use.mesh : posed;
     if (uses.emplace(std::move(use), number).second && number == posed) ++posed;
   });
-  if (hidden > 0) {
-    file.notes.push_back(std::to_string(hidden) +
-                         (hidden == 1 ? " hidden mesh is" : " hidden meshes are") + " passed over");
-  }
+  if (hidden > 0) file.notes.push_back(hidden_meshes(hidden));
   return uses;
 }
 

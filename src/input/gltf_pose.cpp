@@ -78,11 +78,14 @@ void bend(GltfFile& file, const tinygltf::Primitive& source, const std::vector<T
       for (std::size_t k = 0; k < 4; ++k) {
         const double w = double{how[v][k]};
         if (!(w > 0)) continue;
-        const auto number_of_joint = static_cast<std::size_t>(which[v][k]);
-        if (number_of_joint >= joints.size()) {
-          file.fail(place, "joint " + std::to_string(number_of_joint) + " is past its skin's " +
-                               std::to_string(joints.size()));
+        const double joint_number = double{which[v][k]};
+        if (!(joint_number >= 0 && joint_number < static_cast<double>(joints.size()))) {
+          const bool is_number = joint_number >= 0 && joint_number < 1e9;
+          file.fail(place, "joint " +
+                               (is_number ? std::to_string(static_cast<int>(joint_number)) : "?") +
+                               " is past its skin's " + std::to_string(joints.size()));
         }
+        const auto number_of_joint = static_cast<std::size_t>(joint_number);
         sums[v] += w;
         for (std::size_t row = 0; row < 3; ++row) {
           for (std::size_t column = 0; column < 4; ++column) {
@@ -115,8 +118,9 @@ MeshUse use_of(const GltfFile& file, int index) {
   const tinygltf::Mesh& mesh = file.model.meshes[node.mesh];
   MeshUse use{.mesh = node.mesh, .weights = node.weights.empty() ? mesh.weights : node.weights};
   if (std::ranges::all_of(use.weights, [](double w) { return w == 0; })) use.weights.clear();
-  const bool has_joints = std::ranges::all_of(mesh.primitives, [](const auto& primitive) {
-    return primitive.attributes.contains("JOINTS_0");
+  const bool has_joints = std::ranges::any_of(mesh.primitives, [](const auto& primitive) {
+    return primitive.attributes.contains("JOINTS_0") &&
+           !find_extension(primitive.extensions, "KHR_draco_mesh_compression");
   });
   if (node.skin < 0 || !has_joints) return use;  // joints that move nothing
   if (!is_index(node.skin, file.model.skins.size())) {
@@ -151,7 +155,12 @@ GltfPose pose_of(GltfFile& file, const MeshUse& use, const std::vector<Transform
 void pose_primitive(GltfFile& file, const tinygltf::Primitive& source, const GltfPose& pose,
                     const std::string& place, Primitive& primitive) {
   morph(file, source, pose.weights, place, primitive);
-  if (!pose.joints.empty()) bend(file, source, pose.joints, place, primitive);
+  if (pose.joints.empty()) return;
+  if (source.attributes.contains("JOINTS_0")) {
+    bend(file, source, pose.joints, place, primitive);
+  } else {
+    file.notes.push_back(place + ": has no joints in a mesh with a skin; it stays as it was bound");
+  }
 }
 
 }  // namespace leafhull

@@ -2,15 +2,26 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "input/file_bytes.h"
 #include "leafhull/tree.h"
 
 namespace leafhull {
 
+/// A channel of a colour in a file as 0 to 1; 1 for what is no number.
+inline double share_of(double channel) {
+  if (channel < 0) return 0;
+  return channel <= 1 ? channel : 1;
+}
+
 /// Decodes PNG (16 bits and palettes too), JPEG, WebP, BMP, or TGA where `name` ends so. Returns an
 /// empty image and sets `reason` where that is not possible.
 Image decode_image(ByteSpan bytes, const std::string& name, std::string& reason);
+
+/// Empties an image, and sets `reason`, where it would make those of a tree larger than 2 GiB: a
+/// few bytes may hold many large ones.
+void keep_small(const std::vector<Image>& images, Image& image, std::string& reason);
 
 /// The least and the greatest opacity of an image's texels.
 struct OpacityRange {
@@ -22,6 +33,10 @@ struct OpacityRange {
   bool shows_nothing() const { return high < kHalf; }
 };
 OpacityRange opacity_range(const Image& image);
+
+/// Where a file has no word for it: an opaque material whose image has holes is cut out there, and
+/// one whose image shows nothing at all is not, which `warnings` get a line for.
+void judge_alpha(const Image& image, Material& material, std::vector<std::string>& warnings);
 
 /// A colour image, or white where it is empty, with the opacity that another shows: in its alpha
 /// where it has one, else in its grey. It has the size of the opacity.

@@ -12,6 +12,11 @@ void input_error(std::string_view file, std::string_view place, std::string_view
   throw Error(ErrorCode::input, message + std::string(what), std::string(remedy));
 }
 
+std::string hidden_meshes(std::size_t count) {
+  return std::to_string(count) + (count == 1 ? " hidden mesh is" : " hidden meshes are") +
+         " passed over";
+}
+
 std::string in_quotes(std::string_view text) {
   std::string quoted = "\"";
   quoted += printable(text);

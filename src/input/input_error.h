@@ -24,6 +24,9 @@ inline constexpr std::string_view kNotAllFinite =
 [[noreturn]] void input_error(std::string_view file, std::string_view place, std::string_view what,
                               std::string_view remedy = kExportAgain);
 
+/// "3 hidden meshes are passed over"
+std::string hidden_meshes(std::size_t count);
+
 /// `printable` in quotes.
 std::string in_quotes(std::string_view text);
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <set>
 #include <span>
 #include <sstream>
 #include <tuple>
@@ -147,9 +148,11 @@ std::string white_unless_told(std::string_view library) {
 ObjMaterials read_material_libraries(std::string_view obj, const Companions& companions,
                                      std::vector<std::string>& warnings) {
   std::vector<std::string> names;
+  std::set<std::string> lines, known;
   for (const std::string& line : arguments(obj, "mtllib")) {
+    if (!lines.insert(line).second) continue;
     for (std::string& name : library_names(line, companions)) {
-      if (std::ranges::find(names, name) == names.end()) names.push_back(std::move(name));
+      if (known.insert(name).second) names.push_back(std::move(name));
     }
   }
   ObjMaterials result;
@@ -196,7 +199,8 @@ void add_materials(const ObjMaterials& from, const std::vector<bool>& used,
     const tinyobj_double::material_t& source = from.materials[i];
     Material& material = tree.materials.emplace_back();
     material.name = source.name;
-    for (int c = 0; c < 3; ++c) material.base_color[c] = static_cast<float>(source.diffuse[c]);
+    for (int c = 0; c < 3; ++c)
+      material.base_color[c] = static_cast<float>(share_of(source.diffuse[c]));
     material.base_color[3] = static_cast<float>(source.dissolve);
     if (!source.alpha_texname.empty()) {
       material.alpha_mode = AlphaMode::mask;
@@ -213,14 +217,7 @@ void add_materials(const ObjMaterials& from, const std::vector<bool>& used,
         images.emplace(std::pair(color, alpha), static_cast<int>(tree.images.size()));
     if (is_new) tree.images.push_back(image_of(color, alpha, companions, tree.warnings));
     material.base_color_image = entry->second;
-    const Image& image = tree.images[entry->second];
-    if (material.alpha_mode != AlphaMode::opaque || image.empty()) continue;
-    const OpacityRange range = opacity_range(image);
-    if (range.has_holes()) material.alpha_mode = AlphaMode::mask;
-    if (range.shows_nothing() && is_new) {
-      tree.warnings.push_back(in_quotes(color) +
-                              ": nothing in it is opaque; its alpha is passed over");
-    }
+    judge_alpha(tree.images[entry->second], material, tree.warnings);
   }
   if (!unknown.empty()) {
     tree.warnings.push_back("no material library has " + quoted_list(unknown));

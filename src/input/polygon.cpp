@@ -102,6 +102,13 @@ class EarCutter {
 }  // namespace
 
 std::vector<std::array<std::uint32_t, 3>> triangulate(std::span<const Vec3d> polygon) {
+  // Ears are found in the square of the number of corners.
+  constexpr std::size_t kMostCorners = 50'000;
+  if (polygon.size() > kMostCorners) {
+    std::vector<std::array<std::uint32_t, 3>> fan;
+    for (std::uint32_t i = 2; i < polygon.size(); ++i) fan.push_back({0, i - 1, i});
+    return fan;
+  }
   return EarCutter(polygon).run();
 }
 

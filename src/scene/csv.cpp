@@ -39,6 +39,8 @@ char separator_of(std::string_view line) {
     const std::size_t kind = kSeparators.find(c);
     if (!quoted && kind != kSeparators.npos) ++counts[kind];
   }
+  // Tabs beside another separator are blanks.
+  if (counts[0] > 0 || counts[1] > 0) counts[2] = 0;
   return kSeparators[std::ranges::max_element(counts) - counts.begin()];
 }
 

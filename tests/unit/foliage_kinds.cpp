@@ -17,10 +17,12 @@ TEST(Kinds, AreReadFromNames) {
   for (const char* name : {"palm_tree_2", "Palmera", "Frond.001", "CoconutTree", "пальма"}) {
     EXPECT_EQ(read_kind(name), LeafKind::frond) << name;
   }
-  for (const char* name : {"oak", "BirchTree", "pineapple"}) {
+  for (const char* name :
+       {"oak", "BirchTree", "pineapple", "acer_palmatum", "pin_oak", "evergreen oak"}) {
     EXPECT_EQ(read_kind(name), LeafKind::broad) << name;
   }
-  for (const char* name : {"leaves", "fire", "first", "spinner", "firm", "model", ""}) {
+  for (const char* name :
+       {"leaves", "fire", "first", "spinner", "firm", "model", "мелкие", "Cam.001", ""}) {
     EXPECT_EQ(read_kind(name), std::nullopt) << name;
   }
 }

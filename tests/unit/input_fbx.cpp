@@ -241,6 +241,22 @@ TEST(Fbx, TexturesOfOtherMachinesAreFoundBesideIt) {
   EXPECT_NE(tree.warnings[0].find("own folder"), std::string::npos) << tree.warnings[0];
 }
 
+TEST(Fbx, ColoursAreWithinZeroAndOne) {
+  FbxBuilder file;
+  add_fbx_square(file).children.push_back(
+      fbx_layer("Color", "Colors", {1e300, -5, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1}));
+  add_fbx_model(file, kFbxModel, "Leaf");
+  file.connect(kFbxMesh, kFbxModel);
+  add_fbx_material(file, kFbxMaterial, "Leaf",
+                   {property("DiffuseColor", "Color", {1e300, -1, 0.5})});
+  const TreeModel tree = read_fbx_text(file.ascii());
+  for (const Vec3f colour : tree.primitives[0].colors) {
+    EXPECT_LE(colour.x, 1);
+    EXPECT_GE(colour.y, 0);
+  }
+  EXPECT_EQ(tree.materials[0].base_color, (std::array<float, 4>{1, 0, 0.5f, 1}));
+}
+
 TEST(Fbx, OpacityMayHaveATextureOfItsOwn) {
   const TemporaryFolder folder;
   write_two_texels(folder / "colour.png", two_texels(90, 255));

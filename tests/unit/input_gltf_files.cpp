@@ -155,5 +155,21 @@ TEST_F(GltfFiles, BytesAfterTheEndArePassedOver) {
   EXPECT_EQ(tree.warnings[0], "the 17 bytes after the end of the GLB are passed over");
 }
 
+TEST_F(GltfFiles, LinksOutOfTheFolderAreNotFollowed) {
+  write_image("secret.png");
+  std::filesystem::create_directories(above_ / "trees");
+  std::filesystem::create_symlink(above_ / "secret.png", above_ / "trees/link.png");
+  const TreeModel tree = read(square_with_image("link.png"));
+  ASSERT_EQ(tree.warnings.size(), 1u);
+  EXPECT_NE(tree.warnings[0].find("leads out of the file's folder"), std::string::npos)
+      << tree.warnings[0];
+  ReadOptions options;
+  options.allow_outside = true;
+  EXPECT_TRUE(read(square_with_image("link.png"), options).warnings.empty());
+  write_image("trees/own.png");
+  std::filesystem::create_symlink("own.png", above_ / "trees/inner.png");
+  EXPECT_TRUE(read(square_with_image("inner.png")).warnings.empty());
+}
+
 }  // namespace
 }  // namespace leafhull::test

@@ -88,6 +88,19 @@ TEST(Skins, WithoutJointsMoveNothing) {
   expect_at(placed_vertex(read(b), 0), {50, 0, 0});
 }
 
+TEST(Skins, PoseWhatHasJoints) {
+  GlbBuilder b = skinned();
+  b.json["meshes"][0]["primitives"].push_back(
+      {{"attributes", {{"POSITION", b.add_accessor(square().positions)}}},
+       {"indices", b.add_accessor(square().indices)}});
+  const TreeModel tree = read(b);
+  ASSERT_EQ(tree.instances.size(), 2u);
+  expect_at(placed_vertex(tree, 1, 0), {1, 3, 0});
+  expect_at(placed_vertex(tree, 1, 1), {1, 0, 0});
+  ASSERT_EQ(tree.warnings.size(), 1u);
+  EXPECT_NE(tree.warnings[0].find("has no joints"), std::string::npos) << tree.warnings[0];
+}
+
 TEST(Skins, ThatAreDamagedAreErrors) {
   const auto expect_error_of = [](const GlbBuilder& b, const std::string& part) {
     try {

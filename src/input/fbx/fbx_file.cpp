@@ -6,7 +6,7 @@
 #include <cmath>
 #include <map>
 #include <memory>
-#include <set>
+#include <optional>
 #include <tuple>
 #include <utility>
 
@@ -75,11 +75,10 @@ class FbxReader {
     tree_.nodes.resize(scene_.nodes.count);
     for (std::size_t i = 0; i < scene_.nodes.count; ++i) describe(*scene_.nodes.data[i]);
     for (std::size_t i = 0; i < scene_.nodes.count; ++i) place(*scene_.nodes.data[i]);
-    if (hidden_ > 0) {
-      tree_.warnings.push_back(std::to_string(hidden_) +
-                               (hidden_ == 1 ? " hidden mesh is" : " hidden meshes are") +
-                               " passed over");
+    if (unread_ > 0) {
+      tree_.warnings.push_back(std::to_string(unread_) + " NURBS or lines are passed over");
     }
+    if (hidden_ > 0) tree_.warnings.push_back(hidden_meshes(hidden_));
     if (tree_.instances.empty()) {
       input_error(name_, "", "holds no triangles that are seen",
                   "Export the tree as polygon meshes.");
@@ -106,6 +105,11 @@ class FbxReader {
   }
 
   void place(const ufbx_node& node) {
+    const bool is_curved = node.attrib_type == UFBX_ELEMENT_NURBS_SURFACE ||
+                           node.attrib_type == UFBX_ELEMENT_NURBS_CURVE ||
+                           node.attrib_type == UFBX_ELEMENT_NURBS_TRIM_SURFACE ||
+                           node.attrib_type == UFBX_ELEMENT_LINE_CURVE;
+    if (is_curved && is_seen(node)) ++unread_;
     if (!node.mesh || node.mesh->num_triangles == 0) return;
     if (!is_seen(node)) {
       ++hidden_;
@@ -152,7 +156,7 @@ class FbxReader {
   std::map<std::tuple<const ufbx_mesh*, std::size_t, const ufbx_material*>,
            std::optional<std::uint32_t>>
       primitives_;
-  std::size_t hidden_ = 0;
+  std::size_t hidden_ = 0, unread_ = 0;
 };
 
 }  // namespace

@@ -62,7 +62,8 @@ Material FbxMaterials::read(const ufbx_material& material) {
   if (!colour && base.has_value) {  // a texture stands in its place
     const double scale = factor.has_value ? factor.value_real : 1;
     const std::array<double, 3> channels{base.value_vec3.x, base.value_vec3.y, base.value_vec3.z};
-    for (int i = 0; i < 3; ++i) read.base_color[i] = static_cast<float>(scale * channels[i]);
+    for (int i = 0; i < 3; ++i)
+      read.base_color[i] = static_cast<float>(share_of(scale * channels[i]));
   }
   const double alpha = material.pbr.opacity.has_value ? material.pbr.opacity.value_real : 1;
   if (!opacity && alpha > 0 && alpha < 1) {
@@ -76,14 +77,7 @@ Material FbxMaterials::read(const ufbx_material& material) {
     read.wrap_u = wrap_of(shown->wrap_u);
     read.wrap_v = wrap_of(shown->wrap_v);
     read.base_color_image = read_image(colour, opacity);
-    // The file says nothing of how alpha is meant; where the image has holes, they are some.
-    const Image& image = tree_.images[read.base_color_image];
-    const OpacityRange range = opacity_range(image);
-    if (range.has_holes()) read.alpha_mode = AlphaMode::mask;
-    if (!image.empty() && range.shows_nothing()) {
-      tree_.warnings.push_back(in_quotes(image.name) +
-                               ": nothing in it is opaque; its alpha is passed over");
-    }
+    judge_alpha(tree_.images[read.base_color_image], read, tree_.warnings);
   }
   return read;
 }
@@ -120,6 +114,7 @@ Image FbxMaterials::decode(const ufbx_texture& texture) {
   } catch (const FileError& error) {
     reason = error.what();
   }
+  keep_small(tree_.images, image, reason);
   if (!reason.empty()) tree_.warnings.push_back(in_quotes(name) + ": texture not read: " + reason);
   return image;
 }

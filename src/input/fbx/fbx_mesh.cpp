@@ -6,6 +6,7 @@
 
 #include "colour/colour.h"
 #include "input/fbx/fbx_text.h"
+#include "input/images.h"
 #include "input/input_error.h"
 #include "input/polygon.h"
 #include "leafhull/error.h"
@@ -39,7 +40,8 @@ Vec2f image_uv(ufbx_vec2 uv, const ufbx_texture* colour) {
 Vec3f vec3f(ufbx_vec3 v) { return Vec3f(Vec3d(v.x, v.y, v.z)); }
 
 Vec3f colour_of(ufbx_vec4 c) {
-  return Vec3f(Vec3d(linear_of_srgb(c.x), linear_of_srgb(c.y), linear_of_srgb(c.z)));
+  return Vec3f(Vec3d(linear_of_srgb(share_of(c.x)), linear_of_srgb(share_of(c.y)),
+                     linear_of_srgb(share_of(c.z))));
 }
 
 bool is_finite_vec(Vec3f v) { return std::isfinite(v.x + v.y + v.z); }
