@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes the seeds that are built, of glTF and FBX: make_corpus tests/fuzz/corpus. compressed.fbx is
-// skinned_binary.fbx with its arrays deflated.
+// Writes the seeds that are built, of glTF and FBX: make_corpus tests/fuzz/corpus. compressed.fbx
+// is skinned_binary.fbx with its arrays deflated.
 #include <filesystem>
 #include <fstream>
 #include <string>
