@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "glb_builder.h"
+#include "leafhull/error.h"
 #include "read_built.h"
 
 namespace leafhull::test {
