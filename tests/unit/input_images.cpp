@@ -274,7 +274,7 @@ TEST(Images, OfPngHaveWholeChunks) {
 
 TEST(Images, OfManyKindsAreRead) {
   std::size_t count = 0;
-  const auto folder = std::filesystem::path(LEAFHULL_TEST_DATA) / "../fuzz/corpus/image";
+  const auto folder = std::filesystem::path(LEAFHULL_TEST_DATA).parent_path() / "fuzz/corpus/image";
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     std::string reason;
     const std::string name = entry.path().filename().string();
