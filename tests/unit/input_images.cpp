@@ -57,7 +57,7 @@ TEST(Images, DecodesOnlyWhatAPrimitiveShows) {
 
 TEST(Images, TellsInOneLineWhyThereIsNone) {
   const Bytes whole = png(2, 2, kPixels);
-  for (const std::string chunk : {std::string(4, '\0'), std::string("A\nB\n")}) {
+  for (const std::string& chunk : {std::string(4, '\0'), std::string("A\nB\n")}) {
     Bytes file = whole;
     std::copy(chunk.begin(), chunk.end(), file.begin() + 37);  // for IDAT
     std::string reason;

@@ -312,7 +312,7 @@ TEST(RenderLeaf, RaysPassThroughTheHolesOfATexture) {
 
 TEST(RenderWood, HasTheColoursOfItsVertices) {
   TreeModel tree;
-  tree.materials.push_back({.base_color = {1, 0.5f, 1, 1}});
+  tree.materials.emplace_back().base_color = {1, 0.5f, 1, 1};
   Primitive square;
   square.material = 0;
   square.positions = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
