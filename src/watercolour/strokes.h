@@ -25,10 +25,10 @@ struct Stroke {
 
 /// A tree's leaves, for a picture.
 struct Leaves {
-  std::span<const Stroke> strokes;  ///< in any order that is the same each time; may be none
+  std::span<const Stroke> strokes{};  ///< in any order that is the same each time; may be none
   /// The colours that they have, linear, that of most first. Where there are several, the buffers'
   /// colour says where which is; none: the green that styles are made for.
-  std::span<const Vec3f> tones;
+  std::span<const Vec3f> tones{};
   Mark mark = Mark::dab;
 };
 
