@@ -12,6 +12,7 @@
 #include <memory>
 #include <string_view>
 
+#include "input/input_error.h"
 #include "input/jpeg_tables.h"
 #include "text/file_name.h"
 #include "text/text.h"
