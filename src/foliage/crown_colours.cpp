@@ -14,7 +14,7 @@ namespace leafhull {
 namespace {
 
 constexpr std::size_t kLooksAtImage = 200'000;  // of an image, a primitive
-constexpr double kMostCells = 64;               // along an axis
+constexpr double kMostNodes = 64;               // along an axis
 constexpr int kMostPlaces = 16;                 // along a triangle's side
 constexpr std::size_t kMostTones = 4;
 /// In the plane of hues of Oklab: nearer colours are one.
@@ -54,7 +54,7 @@ void settle(const std::vector<Weighed>& colours, std::vector<Weighed>& tones) {
 }  // namespace
 
 CrownColours::CrownColours(const Box& crown, double mass)
-    : low_(crown.low), cell_(std::max(mass, crown.longest_side() / kMostCells)) {
+    : low_(crown.low), cell_(std::max(mass, crown.longest_side() / kMostNodes)) {
   const Vec3d size = crown.size();
   // Two nodes more on either side, as far as `spread` and `around` reach.
   const auto count = [&](double side) { return static_cast<std::size_t>(side / cell_) + 6; };
@@ -105,7 +105,8 @@ void CrownColours::put_triangle(const std::array<Vec3d, 3>& corners, Vec3f colou
   for (int i = 0; i < n; ++i) {
     for (int j = 0; j < 2 * (n - i) - 1; ++j) {
       const double third = j % 2 == 0 ? 1 / 3.0 : 2 / 3.0;
-      put(a + u * ((i + third) / n) + v * ((j / 2 + third) / n), colour, each);
+      const int half = j / 2;
+      put(a + u * ((i + third) / n) + v * ((half + third) / n), colour, each);
     }
   }
 }

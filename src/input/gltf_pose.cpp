@@ -65,12 +65,17 @@ void bend(GltfFile& file, const tinygltf::Primitive& source, const std::vector<T
   std::vector<Transform> blends(count, Transform{});
   std::vector<double> sums(count);
   for (int set = 0;; ++set) {
-    const std::string number = std::to_string(set);
-    const auto joint = source.attributes.find("JOINTS_" + number);
-    const auto weight = source.attributes.find("WEIGHTS_" + number);
+    const std::string joints_name = "JOINTS_" + std::to_string(set);
+    const std::string weights_name = "WEIGHTS_" + std::to_string(set);
+    const auto joint = source.attributes.find(joints_name);
+    const auto weight = source.attributes.find(weights_name);
     if (joint == source.attributes.end() || weight == source.attributes.end()) break;
-    const Influences which = read_vec4(file, joint->second, place + ", JOINTS_" + number);
-    const Influences how = read_vec4(file, weight->second, place + ", WEIGHTS_" + number);
+    std::string where = place;
+    where.append(", ").append(joints_name);
+    const Influences which = read_vec4(file, joint->second, where);
+    where = place;
+    where.append(", ").append(weights_name);
+    const Influences how = read_vec4(file, weight->second, where);
     if (which.size() != count || how.size() != count) {
       file.fail(place, "its joints and weights are not one for each vertex");
     }
@@ -78,18 +83,17 @@ void bend(GltfFile& file, const tinygltf::Primitive& source, const std::vector<T
       for (std::size_t k = 0; k < 4; ++k) {
         const double w = double{how[v][k]};
         if (!(w > 0)) continue;
-        const double joint_number = double{which[v][k]};
-        if (!(joint_number >= 0 && joint_number < static_cast<double>(joints.size()))) {
-          const bool is_number = joint_number >= 0 && joint_number < 1e9;
-          file.fail(place, "joint " +
-                               (is_number ? std::to_string(static_cast<int>(joint_number)) : "?") +
-                               " is past its skin's " + std::to_string(joints.size()));
+        const double number_of_joint = double{which[v][k]};
+        const bool is_joint =
+            number_of_joint >= 0 && number_of_joint < static_cast<double>(joints.size());
+        if (!is_joint) {
+          file.fail(place, "a joint is past its skin's " + std::to_string(joints.size()));
         }
-        const auto number_of_joint = static_cast<std::size_t>(joint_number);
+        const Transform& moved = joints[static_cast<std::size_t>(number_of_joint)];
         sums[v] += w;
         for (std::size_t row = 0; row < 3; ++row) {
           for (std::size_t column = 0; column < 4; ++column) {
-            blends[v][row][column] += w * joints[number_of_joint][row][column];
+            blends[v][row][column] += w * moved[row][column];
           }
         }
       }

@@ -128,7 +128,8 @@ Subject tree_subject(std::shared_ptr<const TreeModel> tree, const LeafSet& leave
                      const Progress& progress, const Frame& frame) {
   const ThreadLimit limit(device);
   const auto parts = std::make_shared<Parts>();
-  const Rest wood = rest_of(tree, *leaves.choice);
+  const std::shared_ptr<const TreeModel> whole = std::move(tree);
+  const Rest wood = rest_of(whole, *leaves.choice);
   parts->model = wood.model;
   parts->leaf_colour = leaves.colour;
   std::shared_ptr<const DirectSurface> direct;
@@ -153,7 +154,7 @@ Subject tree_subject(std::shared_ptr<const TreeModel> tree, const LeafSet& leave
   parts->leaves = cards_of(leaves, parts->placement);
   parts->leaf_kind = leaves.choice->kind;
   if (parts->leaf_kind != LeafKind::broad) point_outwards(parts->leaf_kind, parts->leaves);
-  parts->crown_colours = CrownColours::of(*tree, leaves, parts->report.radius_max_model);
+  parts->crown_colours = CrownColours::of(*whole, leaves, parts->report.radius_max_model);
 
   parts->embree = render::open_embree();
   Surfaces surfaces;

@@ -116,7 +116,7 @@ TEST(Skins, ThatAreDamagedAreErrors) {
   expect_error_of(b, "skins[4]");
   b = skinned();
   b.json["skins"][0]["joints"] = {0};
-  expect_error_of(b, "joint 1 is past its skin's 1");
+  expect_error_of(b, "a joint is past its skin's 1");
   b = skinned();
   b.json["skins"][0]["joints"] = {0, 77};
   expect_error_of(b, "nodes[77]");

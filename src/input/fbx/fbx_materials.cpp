@@ -26,7 +26,7 @@ const ufbx_texture* first_of(std::initializer_list<const ufbx_material_map*> map
 
 std::string name_of(const ufbx_texture* texture) {
   if (!texture) return {};
-  const std::string relative = text_of(texture->relative_filename);
+  std::string relative = text_of(texture->relative_filename);
   if (!relative.empty()) return relative;
   const std::string absolute = text_of(texture->absolute_filename);
   return absolute.empty() ? text_of(texture->name) : absolute;

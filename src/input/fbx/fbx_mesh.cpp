@@ -32,7 +32,8 @@ const ufbx_vertex_vec2& uvs_of(const ufbx_mesh& mesh, const ufbx_texture* colour
 
 /// In the texture's space, v down.
 Vec2f image_uv(ufbx_vec2 uv, const ufbx_texture* colour) {
-  ufbx_vec3 at{uv.x, uv.y, 0};
+  ufbx_vec3 at{};
+  at.x = uv.x, at.y = uv.y;
   if (colour && colour->has_uv_transform) at = ufbx_transform_position(&colour->uv_to_texture, at);
   return {static_cast<float>(at.x), static_cast<float>(1 - at.y)};
 }
