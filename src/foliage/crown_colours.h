@@ -10,7 +10,7 @@
 
 namespace leafhull {
 
-/// Where in a crown its leaves have which colour, at the scale of its masses.
+/// Tells the colour of a crown's leaves at a place, at the scale of its masses.
 class CrownColours {
  public:
   /// Nothing where the leaves have one colour, or one that nobody knows.

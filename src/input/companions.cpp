@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 constexpr std::array<std::string_view, 6> kTextureFolders{"textures", "texture", "tex",
                                                           "maps",     "images",  "materials"};
 
-/// Of a path's end, that are looked for.
+/// How many names at the end of a path are looked for.
 constexpr std::size_t kMostParts = 6;
 
 std::string lower(std::string text) {

@@ -26,7 +26,7 @@ struct PlacedCamera {
 /// @throws Error input: nodes that are not a tree; no such mesh or skin.
 std::map<MeshUse, int> mesh_uses(GltfFile& file);
 
-/// Of every node of the file; those that are not in the scene stand at its origin.
+/// Says where each node of the file stands; those that are not in the scene stand at its origin.
 std::vector<Transform> node_transforms(const GltfFile& file);
 
 /// The same meshes, by their numbers in `uses`, as the nodes place them, in depth-first order, each

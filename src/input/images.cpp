@@ -22,7 +22,7 @@ namespace {
 
 // A few bytes can claim any size; this is 256 MiB decoded.
 constexpr std::int64_t kMostPixels = 8192 * 8192;
-/// Of what stb_image reads, PNG packs the most: 1032 bytes of 8 pixels into one.
+/// PNG packs more than anything else that stb_image reads: 1032 bytes of 8 pixels into one.
 constexpr std::int64_t kMostPixelsPerByte = 8 * 1032;
 
 enum class Format { stb, png, jpeg, webp, unread };
