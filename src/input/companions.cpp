@@ -137,4 +137,12 @@ Companions::Found Companions::find(std::string_view written) const {
   throw FileError(std::make_error_code(std::errc::no_such_file_or_directory).message());
 }
 
+Bytes read_companion(const Companions& companions, std::string_view written,
+                     std::vector<std::string>& warnings) {
+  const Companions::Found found = companions.find(written);
+  Bytes bytes = read_file(found.path);
+  if (!found.note.empty()) warnings.push_back(found.note);
+  return bytes;
+}
+
 }  // namespace leafhull

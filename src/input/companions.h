@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "input/file_bytes.h"
 
@@ -39,5 +40,10 @@ class Companions {
   std::optional<std::filesystem::path> tree_file_;
   bool allow_outside_ = false;
 };
+
+/// The bytes of a companion; `warnings` get a line where finding it was a guess.
+/// @throws FileError.
+Bytes read_companion(const Companions& companions, std::string_view written,
+                     std::vector<std::string>& warnings);
 
 }  // namespace leafhull

@@ -48,15 +48,6 @@ std::vector<std::string> library_names(const std::string& line, const Companions
   return names;
 }
 
-/// @throws FileError.
-Bytes read_companion(const Companions& companions, const std::string& name,
-                     std::vector<std::string>& warnings) {
-  const Companions::Found found = companions.find(name);
-  Bytes bytes = read_file(found.path);
-  if (!found.note.empty()) warnings.push_back(found.note);
-  return bytes;
-}
-
 /// An image beside the file; empty, with a warning, where it cannot be read.
 Image read_image(const std::string& name, const Companions& companions,
                  std::vector<std::string>& warnings) {

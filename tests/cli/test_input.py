@@ -132,6 +132,16 @@ class Input(CommandTest):
         self.assertAlmostEqual(turned_low[2], -high[1], delta=0.3)
         self.assertGreater(turned_high[1] - turned_low[1], 2 * (high[1] - low[1]))
 
+    def test_a_lying_tree_is_scattered_upright(self):
+        positions, triangles = glb.cards()
+        lying = self.input("lying.glb", glb.tree([[x, y, 3 * z] for x, y, z in positions], triangles))
+        texts = []
+        for number, up in enumerate(((), ("--up", "z"))):
+            scene = self.out / f"{number}.csv"
+            self.succeed("scatter", lying, "-o", scene, "--count", "30", *up)
+            texts.append(scene.read_text())
+        self.assertNotEqual(*texts, "crowns are narrower where they stand")
+
     def test_what_is_not_read_is_converted(self):
         blend = self.input("oak.blend", b"BLENDER-v300")
         result = self.fail_with(3, ["Blender file", "blender -b"], "inspect", blend)

@@ -107,9 +107,7 @@ Image FbxMaterials::decode(const ufbx_texture& texture) {
       image = decode_image({static_cast<const std::uint8_t*>(content.data), content.size}, name,
                            reason);
     } else {
-      const Companions::Found found = companions_.find(name);
-      image = decode_image(read_file(found.path), name, reason);
-      if (!found.note.empty()) tree_.warnings.push_back(found.note);
+      image = decode_image(read_companion(companions_, name, tree_.warnings), name, reason);
     }
   } catch (const FileError& error) {
     reason = error.what();
