@@ -14,8 +14,8 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 ROOMS = {
     "colour": ((), ()),
     "input": (("colour", "text"), ("tinygltf", "tinyobjloader", "json", "draco", "meshoptimizer", "stb", "ufbx", "webp")),
-    "leaves": ((), ("eigen",)),
-    "foliage": (("colour", "leaves"), ("eigen",)),
+    "leaves": ((), ("eigen", "tbb")),
+    "foliage": (("colour", "leaves"), ("eigen", "tbb")),
     "points": (("leaves",), ("eigen", "tbb")),
     "density": ((), ("openvdb", "tbb")),
     "device": (("density",), ("opencl",)),

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "foliage/appearance.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -9,12 +8,11 @@
 #include "colour/colour.h"
 #include "foliage/evidence.h"
 #include "foliage/surface_colour.h"
-#include "leaves/components.h"
+#include "foliage/survey.h"
 
 namespace leafhull {
 namespace {
 
-constexpr std::size_t kSamples = 400'000;  // of an image, a primitive
 constexpr std::size_t kMostParts = 12;
 /// Colours in Oklab nearer than this are one colour of the thing.
 constexpr double kOneColour = 0.11;
@@ -28,120 +26,6 @@ constexpr double kTelling = 1;
 /// A piece of so many triangles, this share of its area of either colour, is of both.
 constexpr std::size_t kMixedTriangles = 100;
 constexpr double kMixedShare = 0.04;
-
-enum class Form { flat, tube, lobe, slab };
-
-/// Sums over the triangles of a piece.
-struct Piece {
-  Eigen::Vector3d origin;  ///< a vertex, about which the sums are
-  double area = 0, volume = 0, kept = 0, spread = 0;
-  Vec3d colour;
-  Eigen::Vector3d first = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
-  double level = 0;  ///< area seen from above
-  Box box;
-  std::size_t triangles = 0;
-  Form form = Form::lobe;
-
-  double length() const { return box.longest_side(); }
-};
-
-Eigen::Vector3d to_eigen3(Vec3d v) { return {v.x, v.y, v.z}; }
-
-/// A primitive in the world, and what its triangles show.
-struct Surface {
-  std::vector<Vec3d> positions;
-  std::vector<double> areas;
-  std::vector<Shown> shown;
-  std::vector<std::uint32_t> piece_of;
-  std::vector<Piece> pieces;
-};
-
-void add(const Surface& surface, const Primitive& primitive, std::size_t t, Piece& piece) {
-  const auto [a, b, c] = primitive.triangles[t];
-  if (piece.triangles++ == 0) piece.origin = to_eigen3(surface.positions[a]);
-  const Eigen::Vector3d p = to_eigen3(surface.positions[a]) - piece.origin,
-                        q = to_eigen3(surface.positions[b]) - piece.origin,
-                        r = to_eigen3(surface.positions[c]) - piece.origin;
-  const double area = surface.areas[t];
-  const Eigen::Vector3d sum = p + q + r;
-  piece.area += area;
-  piece.volume += p.dot(q.cross(r)) / 6;
-  piece.level += std::abs((q - p).cross(r - p).y()) / 2;
-  piece.first += area / 3 * sum;
-  piece.second +=
-      area / 12 *
-      (p * p.transpose() + q * q.transpose() + r * r.transpose() + sum * sum.transpose());
-  for (const std::uint32_t vertex : {a, b, c}) piece.box.include(surface.positions[vertex]);
-  const Shown& shown = surface.shown[t];
-  piece.kept += area * shown.kept;
-  piece.spread += area * shown.spread;
-  piece.colour = piece.colour + Vec3d(shown.colour) * (area * shown.kept);
-}
-
-/// How large a tree is: as high as everything in the file, unless that lies flat.
-double scale_of(const Box& all) {
-  return std::max(all.high.y - all.low.y, 0.15 * all.longest_side());
-}
-
-Form form_of(const Piece& piece, const Box& all) {
-  const Vec3d size = piece.box.size();
-  const double width = std::max(size.x, size.z), whole = scale_of(all);
-  const Vec3d whole_size = all.size();
-  const double top = piece.box.high.y - all.low.y;
-  const bool is_wide = width > std::min(0.35 * std::max(whole_size.x, whole_size.z), 0.6 * whole);
-  const bool bears_something = whole_size.y > 0.005 * width;
-  if (is_wide && bears_something && size.y < 0.2 * width &&
-      top < 0.25 * whole_size.y + 0.02 * whole && piece.level > 0.4 * piece.area) {
-    return Form::slab;
-  }
-  if (!(piece.area > 0)) return Form::flat;
-  const Eigen::Vector3d mean = piece.first / piece.area;
-  const Eigen::Matrix3d spread = piece.second / piece.area - mean * mean.transpose();
-  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes;
-  axes.computeDirect(spread, Eigen::EigenvaluesOnly);
-  const Eigen::Vector3d extent = axes.eigenvalues().cwiseMax(0).cwiseSqrt();  // ascending
-  if (extent[0] < 0.12 * extent[1] || piece.triangles <= 2) return Form::flat;
-  if (extent[2] > 2.6 * extent[1]) return Form::tube;
-  // A skeleton of branches encloses little of its box; so does a large open sheet.
-  const double box = size.x * size.y * size.z;
-  const bool is_large = piece.length() > 0.3 * whole && piece.triangles > 40;
-  if (is_large && std::abs(piece.volume) < 0.06 * box) return Form::tube;
-  return Form::lobe;
-}
-
-Surface survey(const TreeModel& tree, const Primitive& primitive, const Transform& to_world,
-               const Box& all) {
-  Surface surface;
-  surface.positions.reserve(primitive.positions.size());
-  for (const Vec3f p : primitive.positions) {
-    surface.positions.push_back(transformed(to_world, Vec3d(p)));
-  }
-  const SurfaceColour colour(tree, primitive, kSamples);
-  const std::size_t count = primitive.triangles.size();
-  surface.areas.reserve(count);
-  surface.shown.reserve(count);
-  for (std::size_t t = 0; t < count; ++t) {
-    const auto [a, b, c] = primitive.triangles[t];
-    const Vec3d* p = surface.positions.data();
-    surface.areas.push_back(length(cross(p[b] - p[a], p[c] - p[a])) / 2);
-    surface.shown.push_back(colour.varies() || t == 0 ? colour.of(t) : surface.shown.front());
-  }
-  surface.piece_of = label_pieces(primitive);
-  if (count > 0) surface.pieces.resize(std::ranges::max(surface.piece_of) + std::size_t{1});
-  for (std::size_t t = 0; t < count; ++t) {
-    add(surface, primitive, t, surface.pieces[surface.piece_of[t]]);
-  }
-  for (Piece& piece : surface.pieces) {
-    piece.form = form_of(piece, all);
-    if (piece.kept > 0) piece.colour = piece.colour / piece.kept;
-    if (piece.area > 0) {
-      piece.kept /= piece.area;
-      piece.spread /= piece.area;
-    }
-  }
-  return surface;
-}
 
 /// Groups colours: those near to an earlier one are one with it. The largest areas come first.
 class ColourClasses {
@@ -183,15 +67,15 @@ std::vector<std::uint32_t> by_area(const std::vector<double>& areas) {
 std::vector<bool> mixed_pieces(const Surface& surface) {
   std::vector<double> for_leaves(surface.pieces.size()), against(surface.pieces.size());
   for (std::size_t t = 0; t < surface.areas.size(); ++t) {
-    const double evidence = colour_evidence(surface.shown[t].colour);
+    if (surface.pieces[surface.piece_of[t]].triangles < kMixedTriangles) continue;
+    const double evidence = colour_evidence(surface.shown_at(t).colour);
     if (evidence > kTelling) for_leaves[surface.piece_of[t]] += surface.areas[t];
     if (evidence < -kTelling) against[surface.piece_of[t]] += surface.areas[t];
   }
   std::vector<bool> mixed;
   for (std::size_t i = 0; i < surface.pieces.size(); ++i) {
     const double least = kMixedShare * surface.pieces[i].area;
-    mixed.push_back(surface.pieces[i].triangles >= kMixedTriangles && for_leaves[i] > least &&
-                    against[i] > least);
+    mixed.push_back(for_leaves[i] > least && against[i] > least);
   }
   return mixed;
 }
@@ -222,7 +106,7 @@ std::vector<std::uint8_t> classes_of(const Surface& surface, bool has_colour) {
     const std::uint32_t piece = surface.piece_of[t];
     const bool by_triangle = is_palette || mixed[piece];
     colour_of[t] =
-        by_triangle ? colours.of(Vec3d(surface.shown[t].colour)) : colour_of_piece[piece];
+        by_triangle ? colours.of(Vec3d(surface.shown_at(t).colour)) : colour_of_piece[piece];
   }
 
   constexpr std::uint8_t kWithHoles = 0;
@@ -266,11 +150,10 @@ std::vector<Appearance> describe(const Surface& surface, const std::vector<std::
     const double area = surface.areas[t];
     Appearance& look = looks[part];
     look.area += area;
-    kept[part] += area * surface.shown[t].kept;
-    colours[part] = colours[part] + Vec3d(surface.shown[t].colour) * (area * surface.shown[t].kept);
-    look.piece_length += area * piece.length();
-    const Vec3d middle = (piece.box.low + piece.box.high) / 2;
-    look.centre = look.centre + middle * area;
+    kept[part] += area * surface.shown_at(t).kept;
+    colours[part] = colours[part] + Vec3d(surface.shown_at(t).colour) * (area * surface.shown_at(t).kept);
+    look.piece_length += area * piece.length;
+    look.centre = look.centre + piece.middle * area;
     double& form = piece.form == Form::flat   ? look.forms.flat
                    : piece.form == Form::tube ? look.forms.tube
                    : piece.form == Form::lobe ? look.forms.lobe

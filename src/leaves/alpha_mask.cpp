@@ -144,9 +144,9 @@ std::optional<TextureEllipse> AlphaMask::ellipse(const UvBox& box) {
 
   const auto texel = [](double index) { return static_cast<std::int64_t>(index); };
   const Texels texels{texel(left), texel(right), texel(top), texel(bottom)};
-  const auto [known, is_new] = ellipses_.try_emplace(texels);
-  if (is_new) known->second = moments(texels);
-  return known->second;
+  const auto known = ellipses_.find(texels);
+  return known != ellipses_.end() ? known->second
+                                  : ellipses_.emplace(texels, moments(texels)).first->second;
 }
 
 std::optional<TextureEllipse> AlphaMask::moments(const Texels& texels) const {

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <tbb/concurrent_map.h>
+
 #include <array>
 #include <cstdint>
-#include <map>
 #include <optional>
 #include <vector>
 
@@ -39,7 +40,8 @@ class AlphaMask {
   KeptPart kept_part(const std::array<Vec2d, 3>& triangle) const;
 
   /// The ellipse with the moments of the mask inside the box: half axes of two standard deviations
-  /// along its principal directions. Nothing where the mask is empty there.
+  /// along its principal directions. Nothing where the mask is empty there. Boxes are remembered;
+  /// threads may ask at once.
   std::optional<TextureEllipse> ellipse(const UvBox& box);
 
  private:
@@ -56,7 +58,7 @@ class AlphaMask {
   Wrap wrap_u_, wrap_v_;
   std::vector<std::uint8_t> kept_;  ///< a texel each, 1 where it is kept, rows from the top
   std::size_t kept_count_ = 0;
-  std::map<Texels, std::optional<TextureEllipse>> ellipses_;
+  tbb::concurrent_map<Texels, std::optional<TextureEllipse>> ellipses_;
 };
 
 }  // namespace leafhull

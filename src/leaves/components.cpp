@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "leaves/components.h"
 
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_sort.h>
+
 #include <algorithm>
+#include <bit>
 #include <numeric>
-#include <tuple>
 #include <utility>
 
 #include "leaves/leaf_mesh.h"
@@ -87,26 +90,35 @@ bool is_smooth(const LeafMesh& leaf, const EdgeSide& a, const EdgeSide& b) {
   return -cosine >= kCosSharp || cosine >= kCosDoubled;
 }
 
+/// Bits that are in the order of the numbers, one for each number.
+std::uint32_t ordered_bits(float number) {
+  constexpr std::uint32_t kSign = 0x80000000;
+  const auto bits = std::bit_cast<std::uint32_t>(number + 0.0f);  // -0 becomes 0
+  return bits & kSign ? ~bits : bits | kSign;
+}
+
 /// The distinct positions, ascending, and which of them each vertex has.
 std::vector<std::uint32_t> weld_positions(const Primitive& primitive,
                                           std::vector<Vec3f>& positions) {
   struct Stored {
-    Vec3f position;
-    std::uint32_t vertex;
-    auto key() const { return std::tie(position.x, position.y, position.z); }
+    std::uint64_t xy;
+    std::uint32_t z, vertex;
+    auto operator<=>(const Stored&) const = default;
   };
-  std::vector<Stored> stored;
-  stored.reserve(primitive.positions.size());
-  // Adding zero turns -0 into 0, so that what is equal has equal bits.
-  for (const Vec3f& p : primitive.positions) {
-    stored.push_back({p + Vec3f(0, 0, 0), static_cast<std::uint32_t>(stored.size())});
-  }
-  std::ranges::sort(stored, [](const Stored& a, const Stored& b) { return a.key() < b.key(); });
+  std::vector<Stored> stored(primitive.positions.size());
+  tbb::parallel_for(std::size_t{0}, stored.size(), [&](std::size_t i) {
+    const Vec3f p = primitive.positions[i];
+    stored[i] = {std::uint64_t{ordered_bits(p.x)} << 32 | ordered_bits(p.y), ordered_bits(p.z),
+                 static_cast<std::uint32_t>(i)};
+  });
+  tbb::parallel_sort(stored.begin(), stored.end());
 
   std::vector<std::uint32_t> welded(stored.size());
-  for (const Stored& s : stored) {
-    if (positions.empty() || positions.back() != s.position) positions.push_back(s.position);
-    welded[s.vertex] = static_cast<std::uint32_t>(positions.size() - 1);
+  for (std::size_t i = 0; i < stored.size(); ++i) {
+    if (i == 0 || stored[i].xy != stored[i - 1].xy || stored[i].z != stored[i - 1].z) {
+      positions.push_back(primitive.positions[stored[i].vertex] + Vec3f(0, 0, 0));
+    }
+    welded[stored[i].vertex] = static_cast<std::uint32_t>(positions.size() - 1);
   }
   return welded;
 }
@@ -134,7 +146,7 @@ WeldedMesh weld(const Primitive& primitive, const std::vector<bool>& triangles) 
     const auto [a, b, c] = primitive.triangles[t];
     mesh.faces.push_back(least_rotation({{welded[a], welded[b], welded[c]}, {a, b, c}}));
   }
-  std::ranges::sort(mesh.faces, {}, &Face::position);
+  tbb::parallel_sort(mesh.faces.begin(), mesh.faces.end());
   return mesh;
 }
 

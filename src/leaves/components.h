@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <compare>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -17,6 +18,7 @@ struct LeafMesh;
 struct Face {
   std::array<std::uint32_t, 3> position;  ///< into WeldedMesh::positions; the least rotation
   std::array<std::uint32_t, 3> vertex;    ///< into Primitive::positions
+  auto operator<=>(const Face&) const = default;
 };
 
 /// Faces in groups, each group side by side.

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "leaves/order.h"
 
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_sort.h>
+
 #include <algorithm>
 #include <limits>
 #include <numeric>
@@ -57,22 +60,18 @@ std::vector<std::uint32_t> rank_leaves(const LeafSet& leaves) {
   return rank;
 }
 
-std::vector<LeafVertex> sorted_vertices(const LeafSet& leaves) {
+std::vector<std::uint32_t> order_of_vertices(const LeafSet& leaves) {
   const std::vector<LeafVertex>& vertices = leaves.vertices;
-  const std::vector<std::uint32_t> rank = rank_leaves(leaves);
   std::vector<Vec3d> positions;
   positions.reserve(vertices.size());
   for (const LeafVertex& vertex : vertices) positions.push_back(vertex.position);
-  const std::vector<std::uint32_t> order =
-      morton_order(positions, leaves.bounds, [&](std::uint32_t a, std::uint32_t b) {
-        if (precedes(vertices[a], vertices[b])) return true;
-        if (precedes(vertices[b], vertices[a])) return false;
-        return rank[vertices[a].leaf] < rank[vertices[b].leaf];
-      });
-  std::vector<LeafVertex> sorted;
-  sorted.reserve(vertices.size());
-  for (const std::uint32_t vertex : order) sorted.push_back(vertices[vertex]);
-  return sorted;
+  std::vector<std::uint32_t> rank;  // few files have leaves that lie on each other
+  return morton_order(positions, leaves.bounds, [&](std::uint32_t a, std::uint32_t b) {
+    if (precedes(vertices[a], vertices[b])) return true;
+    if (precedes(vertices[b], vertices[a])) return false;
+    if (rank.empty()) rank = rank_leaves(leaves);
+    return rank[vertices[a].leaf] < rank[vertices[b].leaf];
+  });
 }
 
 }  // namespace
@@ -83,15 +82,19 @@ std::vector<std::uint32_t> morton_order(
   struct Entry {
     std::uint64_t code;
     std::uint32_t place;
+    auto operator<=>(const Entry&) const = default;
   };
-  std::vector<Entry> entries;
-  entries.reserve(positions.size());
-  for (const Vec3d& position : positions) {
-    entries.push_back({morton_code(position, bounds), static_cast<std::uint32_t>(entries.size())});
-  }
-  std::ranges::sort(entries, [&](const Entry& a, const Entry& b) {
-    return a.code != b.code ? a.code < b.code : precedes(a.place, b.place);
+  std::vector<Entry> entries(positions.size());
+  tbb::parallel_for(std::size_t{0}, entries.size(), [&](std::size_t i) {
+    entries[i] = {morton_code(positions[i], bounds), static_cast<std::uint32_t>(i)};
   });
+  tbb::parallel_sort(entries.begin(), entries.end());
+  for (auto begin = entries.begin(); begin != entries.end();) {
+    const auto end =
+        std::find_if(begin, entries.end(), [&](const Entry& e) { return e.code != begin->code; });
+    if (end - begin > 1) std::ranges::sort(begin, end, precedes, &Entry::place);
+    begin = end;
+  }
   std::vector<std::uint32_t> order;
   order.reserve(entries.size());
   for (const Entry& entry : entries) order.push_back(entry.place);
@@ -99,7 +102,7 @@ std::vector<std::uint32_t> morton_order(
 }
 
 void sort_vertices(LeafSet& leaves) {
-  leaves.vertices = sorted_vertices(leaves);
+  put_in_order(leaves.vertices, order_of_vertices(leaves));
   constexpr std::uint32_t kUnseen = std::numeric_limits<std::uint32_t>::max();
   std::vector<std::uint32_t> renumbered(leaves.leaf_count, kUnseen);
   std::uint32_t next = 0;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "leafhull/leaves.h"
@@ -15,6 +16,23 @@ namespace leafhull {
 std::vector<std::uint32_t> morton_order(
     std::span<const Vec3d> positions, const Box& bounds,
     const std::function<bool(std::uint32_t, std::uint32_t)>& precedes);
+
+/// Moves `values[order[i]]` to place i, in the memory that they have. `order`: each place once.
+template <class Value>
+void put_in_order(std::vector<Value>& values, std::vector<std::uint32_t> order) {
+  for (std::uint32_t first = 0; first < order.size(); ++first) {
+    if (order[first] == first) continue;
+    Value held = std::move(values[first]);
+    std::uint32_t at = first;
+    for (std::uint32_t from = order[at]; from != first; from = order[at]) {
+      values[at] = std::move(values[from]);
+      order[at] = at;
+      at = from;
+    }
+    values[at] = std::move(held);
+    order[at] = at;
+  }
+}
 
 /// Sorts the vertices along a Morton curve through their bounds and numbers the leaves as they
 /// appear there: an order that depends on the geometry alone.

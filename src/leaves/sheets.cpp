@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <span>
 #include <tuple>
 
@@ -151,6 +152,30 @@ void SheetCollector::begin_solid(std::span<const EigenTriangle> closed,
   sheets_->solids.push_back(std::move(solid));
 }
 
+void SheetCollector::append(SheetCollector&& next) {
+  LeafSheets& other = *next.sheets_;
+  std::vector<Charts::iterator> known(other.charts.size());
+  for (auto chart = next.charts_.begin(); chart != next.charts_.end(); ++chart) {
+    known[chart->second] = chart;
+  }
+  std::vector<std::uint32_t> number(other.charts.size());  // here, by its number there
+  for (std::size_t i = 0; i < number.size(); ++i) {
+    auto node = next.charts_.extract(known[i]);
+    node.mapped() = static_cast<std::uint32_t>(sheets_->charts.size());
+    const auto placed = charts_.insert(std::move(node));
+    if (placed.inserted) sheets_->charts.push_back(std::move(other.charts[i]));
+    number[i] = placed.position->second;
+  }
+  const auto solids = static_cast<std::int32_t>(sheets_->solids.size());
+  for (LeafSheet& sheet : other.sheets) {
+    sheet.chart = number[sheet.chart];
+    if (sheet.solid >= 0) sheet.solid += solids;
+  }
+  sheets_->sheets.insert(sheets_->sheets.end(), other.sheets.begin(), other.sheets.end());
+  std::ranges::move(other.solids, std::back_inserter(sheets_->solids));
+  sheets_->invisible += other.invisible;
+}
+
 /// Gives the solids their areas and an order that depends on the geometry alone, and forgets those
 /// that have no area.
 void SheetCollector::sort_solids() {
@@ -178,13 +203,9 @@ std::shared_ptr<const LeafSheets> SheetCollector::finish(const Box& crown) {
   for (const LeafSheet& sheet : sheets) {
     centres.push_back(sheet.at(sheets_->charts[sheet.chart].centre));
   }
-  const auto order = morton_order(centres, crown, [&](std::uint32_t a, std::uint32_t b) {
-    return sheet_key(sheets[a]) < sheet_key(sheets[b]);
-  });
-  std::vector<LeafSheet> sorted;
-  sorted.reserve(sheets.size());
-  for (const std::uint32_t i : order) sorted.push_back(sheets[i]);
-  sheets = std::move(sorted);
+  put_in_order(sheets, morton_order(centres, crown, [&](std::uint32_t a, std::uint32_t b) {
+                 return sheet_key(sheets[a]) < sheet_key(sheets[b]);
+               }));
   for (const LeafSheet& sheet : sheets) sheets_->area += sheet.area;
   sort_solids();
   charts_.clear();

@@ -60,11 +60,15 @@ class SheetCollector {
   void begin_solid(std::span<const EigenTriangle> closed, const Eigen::Vector3d& first);
   void end_solid() { solid_ = -1; }
 
+  /// Takes the leaves of `next` after its own.
+  void append(SheetCollector&& next);
+
   /// All of them, sorted; `crown`: of the leaves but for strays, which are not to move others.
   std::shared_ptr<const LeafSheets> finish(const Box& crown);
 
  private:
   using Triangles = std::vector<std::array<Vec2d, 3>>;
+  using Charts = std::map<std::pair<const AlphaMask*, std::vector<double>>, std::uint32_t>;
 
   std::uint32_t chart_of(Triangles triangles, const std::shared_ptr<AlphaMask>& mask);
 
@@ -72,7 +76,7 @@ class SheetCollector {
 
   std::int32_t solid_ = -1;
   std::shared_ptr<LeafSheets> sheets_ = std::make_shared<LeafSheets>();
-  std::map<std::pair<const AlphaMask*, std::vector<double>>, std::uint32_t> charts_;
+  Charts charts_;
 };
 
 }  // namespace leafhull

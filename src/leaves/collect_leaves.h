@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "leafhull/leaves.h"
+#include "leaves/components.h"
+#include "leaves/ellipse.h"
+#include "leaves/sheets.h"
+
+namespace leafhull {
+
+/// Leaves in the order in which they were taken.
+struct FoundLeaves {
+  std::vector<LeafVertex> vertices{};  ///< of a leaf side by side
+  SheetCollector sheets{};
+  std::size_t count = 0;
+  std::size_t dropped = 0;     ///< as LeafSet::dropped_leaves
+  std::size_t split = 0;       ///< as LeafSet::split_components
+  std::size_t untextured = 0;  ///< whose texture should have told their ellipse and did not
+
+  void append(FoundLeaves&& next);
+};
+
+/// The components of a primitive, and where it stands.
+struct LeafSource {
+  const Primitive& primitive;
+  const WeldedMesh& mesh;  ///< `primitive` welded
+  const FaceGroups& components;
+  std::vector<Transform> to_world{};  ///< one an instance
+  TextureSource texture{};
+  double scale = 1;  ///< multiplies R_u and R_v
+};
+
+/// Appends the leaves of every instance, component by component. Runs on all threads; what it finds
+/// and its order do not depend on them.
+void collect_leaves(const LeafSource& source, FoundLeaves& found);
+
+}  // namespace leafhull
