@@ -121,6 +121,9 @@ struct LeafChoice {
   std::vector<std::vector<bool>> triangles;  ///< by primitive, those that are leaves; empty: all
   std::vector<bool> cut_out;   ///< by material: the alpha of its image counts though it is opaque
   std::vector<bool> left_out;  ///< by instance: a coarser level of what is there already
+  /// By primitive, which of its distinct positions each vertex has, for find_leaves() to take up;
+  /// or none.
+  std::vector<std::vector<std::uint32_t>> welded;
   std::vector<LeafCandidate> candidates;  ///< the likeliest first
   /// The leaves' mean linear colour by visible area: texture times factor times vertex colour. None
   /// where the file tells no colour.

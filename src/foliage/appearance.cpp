@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "colour/colour.h"
 #include "foliage/evidence.h"
@@ -151,7 +152,8 @@ std::vector<Appearance> describe(const Surface& surface, const std::vector<std::
     Appearance& look = looks[part];
     look.area += area;
     kept[part] += area * surface.shown_at(t).kept;
-    colours[part] = colours[part] + Vec3d(surface.shown_at(t).colour) * (area * surface.shown_at(t).kept);
+    colours[part] =
+        colours[part] + Vec3d(surface.shown_at(t).colour) * (area * surface.shown_at(t).kept);
     look.piece_length += area * piece.length;
     look.centre = look.centre + piece.middle * area;
     double& form = piece.form == Form::flat   ? look.forms.flat
@@ -190,7 +192,7 @@ Vec3d transformed(const Transform& m, Vec3d p) {
 Appearances look_at(const TreeModel& tree, std::uint32_t primitive, const Transform& to_world,
                     const Box& all, Cutting cutting) {
   const Primitive& source = tree.primitives[primitive];
-  const Surface surface = survey(tree, source, to_world, all);
+  Surface surface = survey(tree, source, to_world, all);
   const bool has_colour = SurfaceColour(tree, source, 1).is_known();
   Appearances looks;
   if (cutting == Cutting::where_it_differs) {
@@ -199,6 +201,7 @@ Appearances look_at(const TreeModel& tree, std::uint32_t primitive, const Transf
   }
   looks.parts = describe(surface, looks.part_of, primitive, has_colour, all);
   if (looks.parts.size() < 2) looks.part_of.clear();
+  looks.welded = std::move(surface.welded);
   return looks;
 }
 

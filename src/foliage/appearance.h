@@ -34,6 +34,7 @@ struct Appearance {
 struct Appearances {
   std::vector<Appearance> parts;
   std::vector<std::uint8_t> part_of;  ///< by triangle; empty: all of the first
+  std::vector<std::uint32_t> welded;  ///< by vertex, as weld_positions() returns it
 };
 
 /// Whether a primitive may be cut into parts.

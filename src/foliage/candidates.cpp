@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "foliage/candidates.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -89,7 +91,8 @@ class CandidateFinder {
     group(levels);
     for (const auto& [primitive, numbers] : by_primitive_) box_of(primitive, numbers);
     found_.part_of.resize(tree_.primitives.size());
-    for (const auto& [primitive, numbers] : by_primitive_) look_at_all(primitive, numbers);
+    found_.welded.resize(tree_.primitives.size());
+    look_at_all();
     drop_common_names();
     for (std::size_t i = 0; i < found_.list.size(); ++i) weigh_names(signs_[i], found_.list[i]);
     return std::move(found_);
@@ -162,15 +165,30 @@ class CandidateFinder {
     return instances_[groups_[groups.front()].instances.front()];
   }
 
-  /// The parts of a primitive, for each group of its instances.
-  void look_at_all(std::uint32_t primitive, const std::vector<std::size_t>& groups) {
-    const Primitive& source = tree_.primitives[primitive];
+  void look_at_all() {
+    using Entry = std::pair<std::uint32_t, std::vector<std::size_t>>;
+    const std::vector<Entry> entries(by_primitive_.begin(), by_primitive_.end());
+    std::vector<Appearances> looks(entries.size());
+    tbb::parallel_for(std::size_t{0}, entries.size(),
+                      [&](std::size_t i) { looks[i] = look(entries[i].first, entries[i].second); });
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+      describe_all(entries[i].first, entries[i].second, std::move(looks[i]));
+    }
+  }
+
+  Appearances look(std::uint32_t primitive, const std::vector<std::size_t>& groups) const {
     const bool is_plain = std::ranges::all_of(groups, [&](std::size_t g) {
       return std::abs(groups_[g].signs.material.weight) >= kSaysWhatItIs;
     });
+    return look_at(tree_, primitive, first_standing(groups).to_world, all_,
+                   is_plain ? Cutting::none : Cutting::where_it_differs);
+  }
+
+  /// The parts of a primitive, for each group of its instances.
+  void describe_all(std::uint32_t primitive, const std::vector<std::size_t>& groups,
+                    Appearances looks) {
+    const Primitive& source = tree_.primitives[primitive];
     const Instance& first = first_standing(groups);
-    Appearances looks = look_at(tree_, primitive, first.to_world, all_,
-                                is_plain ? Cutting::none : Cutting::where_it_differs);
     std::vector<std::size_t> triangles(looks.parts.size());
     for (const std::uint8_t part : looks.part_of) ++triangles[part];
     if (looks.part_of.empty()) triangles.front() = source.triangles.size();
@@ -188,6 +206,7 @@ class CandidateFinder {
       }
     }
     found_.part_of[primitive] = std::move(looks.part_of);
+    found_.welded[primitive] = std::move(looks.welded);
   }
 
   Candidate describe(const Group& group, const Primitive& primitive, const Appearance& look,

@@ -42,8 +42,9 @@ void add(const std::array<Vec3d, 3>& corners, double area, const Shown& shown, S
   sums.volume += p.dot(q.cross(r)) / 6;
   sums.level += std::abs((q - p).cross(r - p).y()) / 2;
   sums.first += area / 3 * sum;
-  sums.second += area / 12 *
-                 (p * p.transpose() + q * q.transpose() + r * r.transpose() + sum * sum.transpose());
+  sums.second +=
+      area / 12 *
+      (p * p.transpose() + q * q.transpose() + r * r.transpose() + sum * sum.transpose());
   for (const Vec3d corner : corners) sums.box.include(corner);
   sums.kept += area * shown.kept;
   sums.spread += area * shown.spread;
@@ -133,7 +134,8 @@ Surface survey(const TreeModel& tree, const Primitive& primitive, const Transfor
                const Box& all) {
   Surface surface;
   surface.shown = shown_by(tree, primitive);
-  surface.piece_of = label_pieces(primitive);
+  surface.welded = weld_positions(primitive);
+  surface.piece_of = label_pieces(primitive, surface.welded);
   surface.areas.resize(primitive.triangles.size());
   const TrianglesOfPieces triangles(surface.piece_of);
   surface.pieces.resize(triangles.size());

@@ -29,7 +29,8 @@ struct Surface {
   std::vector<double> areas;            ///< by triangle
   std::vector<std::uint32_t> piece_of;  ///< by triangle
   std::vector<Piece> pieces;
-  std::vector<Shown> shown;  ///< by triangle, or one for all of them
+  std::vector<std::uint32_t> welded;  ///< by vertex, as weld_positions() returns it
+  std::vector<Shown> shown;           ///< by triangle, or one for all of them
 
   const Shown& shown_at(std::size_t triangle) const {
     return shown.size() == 1 ? shown.front() : shown[triangle];

@@ -125,6 +125,9 @@ class LeafCollector {
       found.vertices.push_back({to_vec3d(world), to_vec3f(normals[i]), to_vec3f(major),
                                 radius_major, radius_minor, number});
     }
+    for (std::size_t i = before; i < found.vertices.size(); ++i) {
+      found.bounds.include(found.vertices[i].position);
+    }
     return true;
   }
 
@@ -140,6 +143,10 @@ void FoundLeaves::append(FoundLeaves&& next) {
   const auto before = static_cast<std::uint32_t>(count);
   for (LeafVertex& vertex : next.vertices) vertex.leaf += before;
   vertices.insert(vertices.end(), next.vertices.begin(), next.vertices.end());
+  if (!next.vertices.empty()) {
+    bounds.include(next.bounds.low);
+    bounds.include(next.bounds.high);
+  }
   sheets.append(std::move(next.sheets));
   count += next.count;
   dropped += next.dropped;

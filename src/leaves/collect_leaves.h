@@ -15,6 +15,7 @@ namespace leafhull {
 /// Leaves in the order in which they were taken.
 struct FoundLeaves {
   std::vector<LeafVertex> vertices{};  ///< of a leaf side by side
+  Box bounds{};                        ///< of the vertices
   SheetCollector sheets{};
   std::size_t count = 0;
   std::size_t dropped = 0;     ///< as LeafSet::dropped_leaves

@@ -97,30 +97,8 @@ std::uint32_t ordered_bits(float number) {
   return bits & kSign ? ~bits : bits | kSign;
 }
 
-/// The distinct positions, ascending, and which of them each vertex has.
-std::vector<std::uint32_t> weld_positions(const Primitive& primitive,
-                                          std::vector<Vec3f>& positions) {
-  struct Stored {
-    std::uint64_t xy;
-    std::uint32_t z, vertex;
-    auto operator<=>(const Stored&) const = default;
-  };
-  std::vector<Stored> stored(primitive.positions.size());
-  tbb::parallel_for(std::size_t{0}, stored.size(), [&](std::size_t i) {
-    const Vec3f p = primitive.positions[i];
-    stored[i] = {std::uint64_t{ordered_bits(p.x)} << 32 | ordered_bits(p.y), ordered_bits(p.z),
-                 static_cast<std::uint32_t>(i)};
-  });
-  tbb::parallel_sort(stored.begin(), stored.end());
-
-  std::vector<std::uint32_t> welded(stored.size());
-  for (std::size_t i = 0; i < stored.size(); ++i) {
-    if (i == 0 || stored[i].xy != stored[i - 1].xy || stored[i].z != stored[i - 1].z) {
-      positions.push_back(primitive.positions[stored[i].vertex] + Vec3f(0, 0, 0));
-    }
-    welded[stored[i].vertex] = static_cast<std::uint32_t>(positions.size() - 1);
-  }
-  return welded;
+std::size_t count_of(std::span<const std::uint32_t> welded) {
+  return welded.empty() ? 0 : std::ranges::max(welded) + std::size_t{1};
 }
 
 }  // namespace
@@ -137,9 +115,37 @@ FaceGroups::FaceGroups(std::span<const Face> faces, std::span<const std::uint32_
   for (std::size_t i = 0; i < faces.size(); ++i) faces_[next[labels[i]]++] = faces[i];
 }
 
-WeldedMesh weld(const Primitive& primitive, const std::vector<bool>& triangles) {
+std::vector<std::uint32_t> weld_positions(const Primitive& primitive) {
+  struct Stored {
+    std::uint64_t xy;
+    std::uint32_t z, vertex;
+    auto operator<=>(const Stored&) const = default;
+    bool lies_at(const Stored& other) const { return xy == other.xy && z == other.z; }
+  };
+  std::vector<Stored> stored(primitive.positions.size());
+  tbb::parallel_for(std::size_t{0}, stored.size(), [&](std::size_t i) {
+    const Vec3f p = primitive.positions[i];
+    stored[i] = {std::uint64_t{ordered_bits(p.x)} << 32 | ordered_bits(p.y), ordered_bits(p.z),
+                 static_cast<std::uint32_t>(i)};
+  });
+  tbb::parallel_sort(stored.begin(), stored.end());
+
+  std::vector<std::uint32_t> welded(stored.size());
+  std::uint32_t number = 0;
+  for (std::size_t i = 0; i < stored.size(); ++i) {
+    if (i > 0 && !stored[i].lies_at(stored[i - 1])) ++number;
+    welded[stored[i].vertex] = number;
+  }
+  return welded;
+}
+
+WeldedMesh weld(const Primitive& primitive, std::span<const std::uint32_t> welded,
+                const std::vector<bool>& triangles) {
   WeldedMesh mesh;
-  const std::vector<std::uint32_t> welded = weld_positions(primitive, mesh.positions);
+  mesh.positions.resize(count_of(welded));
+  for (std::size_t i = 0; i < welded.size(); ++i) {
+    mesh.positions[welded[i]] = primitive.positions[i] + Vec3f(0, 0, 0);  // -0 becomes 0
+  }
   mesh.faces.reserve(primitive.triangles.size());
   for (std::size_t t = 0; t < primitive.triangles.size(); ++t) {
     if (!triangles.empty() && !triangles[t]) continue;
@@ -150,16 +156,15 @@ WeldedMesh weld(const Primitive& primitive, const std::vector<bool>& triangles) 
   return mesh;
 }
 
-std::vector<std::uint32_t> label_pieces(const Primitive& primitive) {
-  std::vector<Vec3f> positions;
-  const std::vector<std::uint32_t> welded = weld_positions(primitive, positions);
-  DisjointSets sets(positions.size());
+std::vector<std::uint32_t> label_pieces(const Primitive& primitive,
+                                        std::span<const std::uint32_t> welded) {
+  DisjointSets sets(count_of(welded));
   for (const auto& [a, b, c] : primitive.triangles) {
     sets.unite(welded[a], welded[b]);
     sets.unite(welded[a], welded[c]);
   }
   constexpr std::uint32_t kNone = ~0u;
-  std::vector<std::uint32_t> number(positions.size(), kNone), labels;
+  std::vector<std::uint32_t> number(count_of(welded), kNone), labels;
   labels.reserve(primitive.triangles.size());
   std::uint32_t count = 0;
   for (const auto& triangle : primitive.triangles) {

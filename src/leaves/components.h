@@ -45,12 +45,18 @@ struct WeldedMesh {
   std::vector<Face> faces;       ///< ascending by position
 };
 
-/// Of those triangles of the primitive, or of all where `triangles` is empty.
-WeldedMesh weld(const Primitive& primitive, const std::vector<bool>& triangles = {});
+/// Which of the primitive's distinct positions each vertex has, as WeldedMesh counts them.
+std::vector<std::uint32_t> weld_positions(const Primitive& primitive);
+
+/// Of those triangles of the primitive, or of all where `triangles` is empty. `welded` as
+/// weld_positions() returns it.
+WeldedMesh weld(const Primitive& primitive, std::span<const std::uint32_t> welded,
+                const std::vector<bool>& triangles = {});
 
 /// Of each triangle of a primitive, which piece it belongs to: what hangs together by its vertices,
-/// numbered as the file has them.
-std::vector<std::uint32_t> label_pieces(const Primitive& primitive);
+/// numbered as the file has them. `welded` as above.
+std::vector<std::uint32_t> label_pieces(const Primitive& primitive,
+                                        std::span<const std::uint32_t> welded);
 
 /// Triangles that hang together by their vertices.
 FaceGroups connected_components(const WeldedMesh& mesh);

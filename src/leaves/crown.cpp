@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "leaves/crown.h"
 
+#include <tbb/parallel_for_each.h>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
@@ -29,18 +32,19 @@ std::vector<Box> leaf_boxes(const LeafSet& leaves) {
 
 Box core_of(std::span<const Box> boxes) {
   const std::size_t left_out = boxes.size() / kFew;
-  std::vector<double> values(boxes.size());
   const auto at_rank = [&](std::size_t rank, double Vec3d::*axis, Vec3d Box::*end) {
+    std::vector<double> values(boxes.size());
     std::ranges::transform(boxes, values.begin(), [&](const Box& box) { return (box.*end).*axis; });
     const auto nth = values.begin() + static_cast<std::ptrdiff_t>(rank);
     std::ranges::nth_element(values, nth);
     return *nth;
   };
   Box core;
-  for (double Vec3d::*const axis : {&Vec3d::x, &Vec3d::y, &Vec3d::z}) {
+  static constexpr std::array kAxes{&Vec3d::x, &Vec3d::y, &Vec3d::z};
+  tbb::parallel_for_each(kAxes, [&](double Vec3d::*axis) {
     core.low.*axis = at_rank(left_out, axis, &Box::low);
     core.high.*axis = at_rank(boxes.size() - 1 - left_out, axis, &Box::high);
-  }
+  });
   return core;
 }
 

@@ -27,6 +27,7 @@ struct UvPoint {
 std::vector<UvPoint> uv_points(const LeafMesh& leaf, std::span<const Vec2f> uvs,
                                const Eigen::Vector3d& normal) {
   std::vector<UvPoint> pairs;
+  pairs.reserve(3 * leaf.faces.size());
   for (std::size_t face = 0; face < leaf.faces.size(); ++face) {
     if (!(leaf.areas[face].dot(normal) > 0)) continue;
     for (int corner = 0; corner < 3; ++corner) {

@@ -79,6 +79,18 @@ std::vector<std::uint32_t> chosen_instances(std::span<const Instance> instances,
   return chosen;
 }
 
+WeldedMesh weld_chosen(const Primitive& primitive, const LeafChoice& choice, std::size_t index) {
+  const bool is_known = index < choice.welded.size() && !choice.welded[index].empty();
+  return weld(primitive, is_known ? choice.welded[index] : weld_positions(primitive),
+              choice.triangles[index]);
+}
+
+/// The choice for those who ask how the leaves were found.
+std::shared_ptr<const LeafChoice> told(LeafChoice choice) {
+  choice.welded.clear();
+  return std::make_shared<const LeafChoice>(std::move(choice));
+}
+
 FoundLeaves collect_all(const TreeModel& tree, std::span<const Instance> instances,
                         const LeafChoice& choice, const LeafOptions& options, Masks& masks) {
   const std::vector<std::uint32_t> chosen = chosen_instances(instances, choice);
@@ -91,7 +103,7 @@ FoundLeaves collect_all(const TreeModel& tree, std::span<const Instance> instanc
   for (auto first = chosen.begin(); first != chosen.end();) {
     const std::uint32_t index = instances[*first].primitive;
     const Primitive& primitive = tree.primitives[index];
-    const WeldedMesh mesh = weld(primitive, choice.triangles[index]);
+    const WeldedMesh mesh = weld_chosen(primitive, choice, index);
     const FaceGroups components = connected_components(mesh);
     LeafSource source{primitive, mesh, components};
     source.texture = {primitive.uvs, options.ellipse, masks.of(primitive.material)};
@@ -141,7 +153,7 @@ LeafSet find_leaves(const TreeModel& tree, std::span<const Instance> instances,
                     const LeafChoice& choice, const LeafOptions& options) {
   check(options);
   LeafSet leaves;
-  leaves.choice = std::make_shared<const LeafChoice>(choice);
+  leaves.choice = told(choice);
   leaves.colour = choice.colour;
   leaves.warnings = choice.warnings;
   Masks masks(tree, choice);
@@ -160,7 +172,7 @@ LeafSet find_leaves(const TreeModel& tree, std::span<const Instance> instances,
         "the texture of material '" + material +
         "' is transparent everywhere; its leaves are taken as whole triangles");
   }
-  for (const LeafVertex& vertex : leaves.vertices) leaves.bounds.include(vertex.position);
+  leaves.bounds = found.bounds;
   const Crown crown = find_crown(leaves);
   leaves.crown = crown.box;
   leaves.stray_leaves = crown.strays;

@@ -27,6 +27,7 @@ std::vector<PointNormal> distinct_normals(const LeafMesh& leaf, std::span<const 
                                           const Eigen::Vector3d& plane_normal) {
   std::vector<PointNormal> normals;
   if (stored.empty()) return normals;
+  normals.reserve(3 * leaf.faces.size());
   // Where a placed normal points to the front, the stored one points along this.
   const Eigen::Vector3d front = placement.normals.transpose() * plane_normal;
   for (std::size_t face = 0; face < leaf.faces.size(); ++face) {

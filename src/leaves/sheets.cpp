@@ -26,6 +26,7 @@ std::vector<std::size_t> faces_of_one_side(const LeafMesh& leaf, const Eigen::Ve
   }
   const bool doubled = std::abs(front - back) <= kSameArea * front;
   std::vector<std::size_t> faces;
+  faces.reserve(leaf.faces.size());
   for (std::size_t face = 0; face < leaf.faces.size(); ++face) {
     if (leaf.areas[face].isZero(0)) continue;
     if (!doubled || leaf.areas[face].dot(normal) > 0) faces.push_back(face);
@@ -107,6 +108,7 @@ void SheetCollector::take(const LeafMesh& leaf, const LeafEllipse& ellipse,
       textured ? Axes{ellipse.map->origin, ellipse.map->linear.col(0), ellipse.map->linear.col(1)}
                : axes_of_faces(leaf, faces);
   Triangles triangles;
+  triangles.reserve(faces.size());
   for (const std::size_t face : faces) {
     std::array<Vec2d, 3> corners;
     for (std::size_t i = 0; i < 3; ++i) {

@@ -23,7 +23,7 @@ using test::tree_of;
 
 /// The closed surface of a primitive that is one component.
 std::vector<EigenTriangle> closed(const Primitive& primitive) {
-  const WeldedMesh mesh = weld(primitive);
+  const WeldedMesh mesh = weld(primitive, weld_positions(primitive));
   const FaceGroups components = connected_components(mesh);
   EXPECT_EQ(components.size(), 1u);
   LeafMesh component;
