@@ -20,6 +20,9 @@ namespace {
 /// Needles of fewer faces are not looked at.
 constexpr std::size_t kFewestFacesOfSolid = 8;
 
+/// So many components at a time, for their leaves to stay in the cache until they are appended.
+constexpr std::size_t kAtATime = 1 << 13;
+
 /// Takes components one after the other. Its numbers count those of all instances.
 class LeafCollector {
  public:
@@ -155,11 +158,13 @@ void FoundLeaves::append(FoundLeaves&& next) {
 }
 
 void collect_leaves(const LeafSource& source, FoundLeaves& found) {
-  LeafCollector collector(source);
-  collector.found = std::move(found);
   const std::size_t count = source.to_world.size() * source.components.size();
-  tbb::parallel_reduce(tbb::blocked_range<std::size_t>(0, count), collector);
-  found = std::move(collector.found);
+  for (std::size_t begin = 0; begin < count; begin += kAtATime) {
+    LeafCollector collector(source);
+    tbb::parallel_reduce(tbb::blocked_range<std::size_t>(begin, std::min(begin + kAtATime, count)),
+                         collector);
+    found.append(std::move(collector.found));
+  }
 }
 
 }  // namespace leafhull

@@ -100,6 +100,7 @@ FoundLeaves collect_all(const TreeModel& tree, std::span<const Instance> instanc
     vertices += tree.primitives[instances[i].primitive].positions.size();
   }
   found.vertices.reserve(std::min(vertices, kMostReserved));
+  found.sheets.reserve(std::min(vertices, kMostReserved) / 3);
   for (auto first = chosen.begin(); first != chosen.end();) {
     const std::uint32_t index = instances[*first].primitive;
     const Primitive& primitive = tree.primitives[index];

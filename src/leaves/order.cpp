@@ -23,16 +23,6 @@ std::uint64_t spread_bits(std::uint64_t bits) {
   return (bits | bits << 2) & 0x1249249249249249;
 }
 
-std::uint64_t morton_code(const Vec3d& position, const Box& bounds) {
-  constexpr double kCells = 1 << kBitsPerAxis;
-  const double side = bounds.longest_side();
-  const Vec3d scaled = side > 0 ? (position - bounds.low) / side * kCells : Vec3d{};
-  const auto cell = [](double x) {
-    return spread_bits(static_cast<std::uint64_t>(std::clamp(x, 0.0, kCells - 1)));
-  };
-  return cell(scaled.x) | cell(scaled.y) << 1 | cell(scaled.z) << 2;
-}
-
 bool precedes(const LeafVertex& a, const LeafVertex& b) {
   const auto key = [](const LeafVertex& v) {
     return std::tie(v.position.x, v.position.y, v.position.z, v.normal.x, v.normal.y, v.normal.z,
@@ -62,11 +52,11 @@ std::vector<std::uint32_t> rank_leaves(const LeafSet& leaves) {
 
 std::vector<std::uint32_t> order_of_vertices(const LeafSet& leaves) {
   const std::vector<LeafVertex>& vertices = leaves.vertices;
-  std::vector<Vec3d> positions;
-  positions.reserve(vertices.size());
-  for (const LeafVertex& vertex : vertices) positions.push_back(vertex.position);
+  const auto code = [&](std::uint32_t i) {
+    return morton_code(vertices[i].position, leaves.bounds);
+  };
   std::vector<std::uint32_t> rank;  // few files have leaves that lie on each other
-  return morton_order(positions, leaves.bounds, [&](std::uint32_t a, std::uint32_t b) {
+  return order_by_code(vertices.size(), code, [&](std::uint32_t a, std::uint32_t b) {
     if (precedes(vertices[a], vertices[b])) return true;
     if (precedes(vertices[b], vertices[a])) return false;
     if (rank.empty()) rank = rank_leaves(leaves);
@@ -76,17 +66,28 @@ std::vector<std::uint32_t> order_of_vertices(const LeafSet& leaves) {
 
 }  // namespace
 
-std::vector<std::uint32_t> morton_order(
-    std::span<const Vec3d> positions, const Box& bounds,
+std::uint64_t morton_code(Vec3d position, const Box& bounds) {
+  constexpr double kCells = 1 << kBitsPerAxis;
+  const double side = bounds.longest_side();
+  const Vec3d scaled = side > 0 ? (position - bounds.low) / side * kCells : Vec3d{};
+  const auto cell = [](double x) {
+    return spread_bits(static_cast<std::uint64_t>(std::clamp(x, 0.0, kCells - 1)));
+  };
+  return cell(scaled.x) | cell(scaled.y) << 1 | cell(scaled.z) << 2;
+}
+
+std::vector<std::uint32_t> order_by_code(
+    std::size_t count, const std::function<std::uint64_t(std::uint32_t)>& code,
     const std::function<bool(std::uint32_t, std::uint32_t)>& precedes) {
   struct Entry {
     std::uint64_t code;
     std::uint32_t place;
     auto operator<=>(const Entry&) const = default;
   };
-  std::vector<Entry> entries(positions.size());
-  tbb::parallel_for(std::size_t{0}, entries.size(), [&](std::size_t i) {
-    entries[i] = {morton_code(positions[i], bounds), static_cast<std::uint32_t>(i)};
+  std::vector<Entry> entries(count);
+  tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
+    const auto place = static_cast<std::uint32_t>(i);
+    entries[i] = {code(place), place};
   });
   tbb::parallel_sort(entries.begin(), entries.end());
   for (auto begin = entries.begin(); begin != entries.end();) {

@@ -11,10 +11,14 @@
 
 namespace leafhull {
 
-/// The order of positions along a Morton curve through the box `bounds`; what lies beyond it counts
-/// as on its side. `precedes` tells which of two comes first that have one place on the curve.
-std::vector<std::uint32_t> morton_order(
-    std::span<const Vec3d> positions, const Box& bounds,
+/// The place of a position on a Morton curve through the box `bounds`; what lies beyond it counts
+/// as on its side.
+std::uint64_t morton_code(Vec3d position, const Box& bounds);
+
+/// The order of things by their codes. `precedes` tells which of two comes first that have the
+/// same.
+std::vector<std::uint32_t> order_by_code(
+    std::size_t count, const std::function<std::uint64_t(std::uint32_t)>& code,
     const std::function<bool(std::uint32_t, std::uint32_t)>& precedes);
 
 /// Moves `values[order[i]]` to place i, in the memory that they have. `order`: each place once.

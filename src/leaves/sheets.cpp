@@ -200,12 +200,10 @@ void SheetCollector::sort_solids() {
 
 std::shared_ptr<const LeafSheets> SheetCollector::finish(const Box& crown) {
   std::vector<LeafSheet>& sheets = sheets_->sheets;
-  std::vector<Vec3d> centres;
-  centres.reserve(sheets.size());
-  for (const LeafSheet& sheet : sheets) {
-    centres.push_back(sheet.at(sheets_->charts[sheet.chart].centre));
-  }
-  put_in_order(sheets, morton_order(centres, crown, [&](std::uint32_t a, std::uint32_t b) {
+  const auto code = [&](std::uint32_t i) {
+    return morton_code(sheets[i].at(sheets_->charts[sheets[i].chart].centre), crown);
+  };
+  put_in_order(sheets, order_by_code(sheets.size(), code, [&](std::uint32_t a, std::uint32_t b) {
                  return sheet_key(sheets[a]) < sheet_key(sheets[b]);
                }));
   for (const LeafSheet& sheet : sheets) sheets_->area += sheet.area;

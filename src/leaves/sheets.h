@@ -63,6 +63,9 @@ class SheetCollector {
   /// Takes the leaves of `next` after its own.
   void append(SheetCollector&& next);
 
+  /// Makes room for so many leaves.
+  void reserve(std::size_t leaves) { sheets_->sheets.reserve(leaves); }
+
   /// All of them, sorted; `crown`: of the leaves but for strays, which are not to move others.
   std::shared_ptr<const LeafSheets> finish(const Box& crown);
 

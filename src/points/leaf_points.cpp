@@ -22,16 +22,10 @@ auto point_key(const LeafPoint& p) {
 }
 
 void sort_points(std::vector<LeafPoint>& points, const Box& crown) {
-  std::vector<Vec3d> positions;
-  positions.reserve(points.size());
-  for (const LeafPoint& point : points) positions.push_back(point.position);
-  std::vector<LeafPoint> sorted;
-  sorted.reserve(points.size());
-  const auto order = morton_order(positions, crown, [&](std::uint32_t a, std::uint32_t b) {
-    return point_key(points[a]) < point_key(points[b]);
-  });
-  for (const std::uint32_t i : order) sorted.push_back(points[i]);
-  points = std::move(sorted);
+  const auto code = [&](std::uint32_t i) { return morton_code(points[i].position, crown); };
+  put_in_order(points, order_by_code(points.size(), code, [&](std::uint32_t a, std::uint32_t b) {
+                 return point_key(points[a]) < point_key(points[b]);
+               }));
 }
 
 }  // namespace
