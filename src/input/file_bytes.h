@@ -3,15 +3,35 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
+#include <new>
 #include <span>
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace leafhull {
 
-using Bytes = std::vector<std::uint8_t>;
+/// Leaves new bytes as the memory was: a file is read over them.
+template <class T>
+struct LeftAsItIs : std::allocator<T> {
+  template <class U>
+  struct rebind {
+    using other = LeftAsItIs<U>;
+  };
+  template <class U>
+  void construct(U* place) noexcept {
+    ::new (static_cast<void*>(place)) U;
+  }
+  template <class U, class... Arguments>
+  void construct(U* place, Arguments&&... arguments) {
+    ::new (static_cast<void*>(place)) U(std::forward<Arguments>(arguments)...);
+  }
+};
+
+using Bytes = std::vector<std::uint8_t, LeftAsItIs<std::uint8_t>>;
 using ByteSpan = std::span<const std::uint8_t>;
 
 /// Why a file cannot be read.

@@ -104,8 +104,8 @@ bool is_attribute_type(int type) {
 }
 
 template <class Out>
-void put_sparse_values(GltfFile& file, const tinygltf::Accessor& accessor, Elements shape,
-                       std::vector<Out>& out, const std::string& place) {
+void put_sparse_values(GltfFile& file, const tinygltf::Accessor& accessor, Elements shape, Out* out,
+                       const std::string& place) {
   const auto& sparse = accessor.sparse;
   if (!is_index_type(sparse.indices.componentType)) {
     file.fail(place, "its sparse indices are not unsigned integers");
@@ -127,7 +127,7 @@ void put_sparse_values(GltfFile& file, const tinygltf::Accessor& accessor, Eleme
       file.fail(place, "sparse index " + std::to_string(indices[i]) + " is past its " +
                            std::to_string(accessor.count) + " elements");
     }
-    copy(values, i, 1, out.data() + static_cast<std::size_t>(indices[i]) * shape.components);
+    copy(values, i, 1, out + static_cast<std::size_t>(indices[i]) * shape.components);
   }
 }
 
@@ -136,18 +136,40 @@ std::size_t bytes_at_hand(const GltfFile& file) {
                          [](std::size_t sum, ByteSpan b) { return sum + b.size(); });
 }
 
-template <class Out>
-std::vector<Out> read(GltfFile& file, int index, int type, const std::string& user) {
+/// What an element of an accessor is read into: so many floats or indices, and nothing else.
+template <class Element>
+struct ElementType {
+  using Out = float;
+  static constexpr int kComponents = sizeof(Element) / sizeof(float);
+};
+template <>
+struct ElementType<std::uint32_t> {
+  using Out = std::uint32_t;
+  static constexpr int kComponents = 1;
+};
+
+int type_of(int components) {
+  if (components == 1) return TINYGLTF_TYPE_SCALAR;
+  return components == 16 ? TINYGLTF_TYPE_MAT4 : components;  // TINYGLTF_TYPE_VEC2 to VEC4
+}
+
+std::string name_of_type(int components) {
+  if (components == 1) return "SCALAR";
+  return components == 16 ? "MAT4" : "VEC" + std::to_string(components);
+}
+
+template <class Element>
+std::vector<Element> read(GltfFile& file, int index, const std::string& user) {
+  using Out = typename ElementType<Element>::Out;
+  constexpr int kComponents = ElementType<Element>::kComponents;
+  static_assert(std::is_standard_layout_v<Element> && alignof(Element) == alignof(Out));
   if (!is_index(index, file.model.accessors.size())) {
     file.fail(user, "there is no " + place_of("accessors", index));
   }
   const std::string place = accessor_place(user, index);
   const tinygltf::Accessor& accessor = file.model.accessors[index];
-  if (accessor.type != type) {
-    file.fail(place, type == TINYGLTF_TYPE_SCALAR ? "its elements are not SCALAR"
-                     : type == TINYGLTF_TYPE_MAT4
-                         ? "its elements are not MAT4"
-                         : "its elements are not VEC" + std::to_string(type));
+  if (accessor.type != type_of(kComponents)) {
+    file.fail(place, "its elements are not " + name_of_type(kComponents));
   }
   constexpr bool wants_indices = !std::is_same_v<Out, float>;
   if (!(wants_indices ? is_index_type(accessor.componentType)
@@ -157,39 +179,28 @@ std::vector<Out> read(GltfFile& file, int index, int type, const std::string& us
   }
 
   Elements shape{.count = accessor.count,
-                 .components = type == TINYGLTF_TYPE_SCALAR ? 1
-                               : type == TINYGLTF_TYPE_MAT4 ? 16
-                                                            : type,
+                 .components = kComponents,
                  .component_type = accessor.componentType,
                  .normalized = accessor.normalized};
-  std::vector<Out> out;
+  std::vector<Element> out;
   if (accessor.bufferView >= 0) {
     if (is_index(accessor.bufferView, file.model.bufferViews.size())) {
       shape.stride = file.model.bufferViews[accessor.bufferView].byteStride;
     }
     const Elements elements =
         elements_of(file, accessor.bufferView, accessor.byteOffset, shape, place);
-    out.resize(shape.count * shape.components);
-    copy(elements, 0, shape.count, out.data());
+    out.resize(shape.count);
+    copy(elements, 0, shape.count, reinterpret_cast<Out*>(out.data()));
   } else if (accessor.count > bytes_at_hand(file)) {
     file.fail(place, "its " + std::to_string(accessor.count) +
                          " elements have no bufferView and outnumber the bytes of the file");
   } else {
-    out.resize(shape.count * shape.components);
+    out.resize(shape.count);
   }
-  if (accessor.sparse.isSparse) put_sparse_values(file, accessor, shape, out, place);
+  if (accessor.sparse.isSparse) {
+    put_sparse_values(file, accessor, shape, reinterpret_cast<Out*>(out.data()), place);
+  }
   return out;
-}
-
-template <class Vector>
-std::vector<Vector> read_vectors(GltfFile& file, int accessor, int size, const std::string& user) {
-  const std::vector<float> floats = read<float>(file, accessor, size, user);
-  std::vector<Vector> vectors(floats.size() / size);
-  static_assert(std::is_trivially_copyable_v<Vector>);
-  if (!floats.empty()) {
-    std::memcpy(static_cast<void*>(vectors.data()), floats.data(), floats.size() * sizeof(float));
-  }
-  return vectors;
 }
 
 }  // namespace
@@ -219,23 +230,20 @@ ByteSpan buffer_bytes(const GltfFile& file, int index, std::size_t offset, std::
 }
 
 std::vector<Vec2f> read_vec2(GltfFile& file, int accessor, const std::string& user) {
-  return read_vectors<Vec2f>(file, accessor, TINYGLTF_TYPE_VEC2, user);
+  return read<Vec2f>(file, accessor, user);
 }
 
 std::vector<Vec3f> read_vec3(GltfFile& file, int accessor, const std::string& user) {
-  return read_vectors<Vec3f>(file, accessor, TINYGLTF_TYPE_VEC3, user);
+  return read<Vec3f>(file, accessor, user);
 }
 
 std::vector<std::array<float, 4>> read_vec4(GltfFile& file, int accessor, const std::string& user) {
-  return read_vectors<std::array<float, 4>>(file, accessor, TINYGLTF_TYPE_VEC4, user);
+  return read<std::array<float, 4>>(file, accessor, user);
 }
 
 std::vector<std::array<float, 16>> read_mat4(GltfFile& file, int accessor,
                                              const std::string& user) {
-  const std::vector<float> floats = read<float>(file, accessor, TINYGLTF_TYPE_MAT4, user);
-  std::vector<std::array<float, 16>> matrices(floats.size() / 16);
-  for (std::size_t i = 0; i < floats.size(); ++i) matrices[i / 16][i % 16] = floats[i];
-  return matrices;
+  return read<std::array<float, 16>>(file, accessor, user);
 }
 
 std::vector<Vec3f> read_colors(GltfFile& file, int accessor, const std::string& user) {
@@ -249,7 +257,7 @@ std::vector<Vec3f> read_colors(GltfFile& file, int accessor, const std::string& 
 }
 
 std::vector<std::uint32_t> read_indices(GltfFile& file, int accessor, const std::string& user) {
-  return read<std::uint32_t>(file, accessor, TINYGLTF_TYPE_SCALAR, user);
+  return read<std::uint32_t>(file, accessor, user);
 }
 
 std::string accessor_place(const std::string& user, int accessor) {

@@ -143,11 +143,11 @@ std::optional<Bytes> decode_data(const std::string& uri) {
   std::string data = percent_decoded(std::string_view(uri).substr(comma + 1));
   if (!coding.ends_with(";base64")) return Bytes(data.begin(), data.end());
   std::erase_if(data, [](unsigned char c) { return std::isspace(c); });
-  Bytes bytes;
+  std::vector<std::uint8_t> bytes;
   std::string media_type;  // tinygltf knows some alone
   const std::string plain = "data:application/octet-stream;base64," + data;
   if (!tinygltf::DecodeDataURI(&bytes, media_type, plain, 0, false)) return std::nullopt;
-  return bytes;
+  return Bytes(bytes.begin(), bytes.end());
 }
 
 /// A query or a fragment belongs to no file, unless one is called so.
