@@ -13,7 +13,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 # Room: the rooms it may include beside itself, and the third-party libraries it may know.
 ROOMS = {
     "colour": ((), ()),
-    "input": (("colour", "text"), ("tinygltf", "tinyobjloader", "json", "draco", "meshoptimizer", "stb", "ufbx", "webp")),
+    "input": (("colour", "text"), ("tinygltf", "tinyobjloader", "json", "draco", "meshoptimizer", "stb", "tbb", "ufbx", "webp")),
     "leaves": ((), ("eigen", "tbb")),
     "foliage": (("colour", "leaves"), ("eigen", "tbb")),
     "points": (("leaves",), ("eigen", "tbb")),

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "input/gltf_accessor.h"
-#include "input/images.h"
 #include "leafhull/error.h"
 
 namespace leafhull {
@@ -126,41 +125,35 @@ int MaterialReader::image_of(int index, Material& material, const std::string& p
     material.wrap_u = wrap(sampler.wrapS);
     material.wrap_v = wrap(sampler.wrapT);
   }
-  return read_image(source_of(texture), place_of("textures", index));
+  return image_number(source_of(texture), place_of("textures", index));
 }
 
-int MaterialReader::read_image(int index, const std::string& texture) {
-  const auto [entry, is_new] = images_.emplace(index, static_cast<int>(tree_.images.size()));
-  if (!is_new) return entry->second;
+int MaterialReader::image_number(int index, const std::string& texture) {
   const std::string place = index < 0 ? texture : place_of("images", index);
-  Image image;
-  std::string reason;
-  if (index < 0) {
-    reason = "it names no image";
-  } else if (!is_index(index, file_.model.images.size())) {
-    reason = "there is no such image";
-  } else {
-    try {
-      const tinygltf::Image& source = file_.model.images[index];
-      if (source.bufferView < 0 && source.uri.empty()) {
-        reason = "it has neither a uri nor a bufferView";
-      } else if (source.bufferView >= 0) {
-        image = decode_image(view_bytes(file_, source.bufferView, place), source.name, reason);
-      } else {
-        image = decode_image(load_uri(file_, source.uri, place), source.uri, reason);
-      }
-    } catch (const Error& error) {
-      reason = error.what();
+  return images_.number_of(
+      {place, {}}, [&](const std::string&) { return load_image(index, place); }, tree_);
+}
+
+ImageSource MaterialReader::load_image(int index, const std::string& place) {
+  ImageSource image{.place = place};
+  if (!is_index(index, file_.model.images.size())) {
+    image.fault = index < 0 ? "it names no image" : "there is no such image";
+    return image;
+  }
+  const tinygltf::Image& source = file_.model.images[index];
+  image.name = source.uri.starts_with("data:") || source.uri.empty() ? source.name : source.uri;
+  try {
+    if (source.bufferView >= 0) {
+      image.lent = view_bytes(file_, source.bufferView, place);
+    } else if (source.uri.empty()) {
+      image.fault = "it has neither a uri nor a bufferView";
+    } else {
+      image.owned = load_uri(file_, source.uri, place);
     }
+  } catch (const Error& error) {
+    image.fault = error.what();
   }
-  keep_small(tree_.images, image, reason);
-  if (!reason.empty()) tree_.warnings.push_back(place + ": texture not read: " + reason);
-  if (is_index(index, file_.model.images.size())) {
-    const tinygltf::Image& source = file_.model.images[index];
-    image.name = source.uri.starts_with("data:") || source.uri.empty() ? source.name : source.uri;
-  }
-  tree_.images.push_back(std::move(image));
-  return entry->second;
+  return image;
 }
 
 }  // namespace leafhull

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <map>
 #include <string>
 #include <vector>
 
 #include "input/gltf_file.h"
+#include "input/image_table.h"
 #include "leafhull/tree.h"
 
 namespace leafhull {
@@ -28,9 +28,12 @@ class MaterialReader {
   /// Reads every material into the tree, without its image.
   void read_all();
 
-  /// The image of a material is decoded when a primitive first asks for its mapping.
+  /// The image of a material is looked for when a primitive first asks for its mapping.
   /// @throws Error input at `user`: no such material.
   TextureMapping use(int material, const std::string& user);
+
+  /// Decodes the images of the materials that are used.
+  void decode_images() { images_.decode(tree_); }
 
  private:
   struct BaseColor {
@@ -40,12 +43,13 @@ class MaterialReader {
 
   BaseColor read_base_color(const tinygltf::Material& from, Material& to) const;
   int image_of(int texture, Material& material, const std::string& place);
-  int read_image(int image, const std::string& texture);
+  int image_number(int image, const std::string& texture);
+  ImageSource load_image(int image, const std::string& place);
 
   GltfFile& file_;
   TreeModel& tree_;
   std::vector<BaseColor> base_colors_;
-  std::map<int, int> images_;  // from the file's to the tree's
+  ImageTable images_;
 };
 
 }  // namespace leafhull

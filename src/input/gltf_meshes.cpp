@@ -31,6 +31,7 @@ GltfMeshes read_gltf_meshes(ByteSpan bytes, const std::string& name, const Compa
       tree.primitives.push_back(std::move(*primitive));
     }
   }
+  materials.decode_images();
   tree.warnings.insert(tree.warnings.begin(), file.notes.begin(), file.notes.end());
   for (const MeshVisitor* visitor : {&survey, &visit}) {
     if (!*visitor) continue;

@@ -190,15 +190,6 @@ Image decode_image(ByteSpan bytes, const std::string& name, std::string& reason)
   return format == Format::webp ? decode_webp(bytes, reason) : decode_stb(bytes, reason);
 }
 
-void keep_small(const std::vector<Image>& images, Image& image, std::string& reason) {
-  constexpr std::size_t kMostBytes = std::size_t{1} << 31;
-  std::size_t bytes = image.rgba.size();
-  for (const Image& other : images) bytes += other.rgba.size();
-  if (bytes <= kMostBytes) return;
-  image = {};
-  reason = "the images of the file are larger than 2 GiB together";
-}
-
 OpacityRange opacity_range(const Image& image) {
   OpacityRange range;
   for (std::size_t i = 3; i < image.rgba.size(); i += 4) {
@@ -208,13 +199,15 @@ OpacityRange opacity_range(const Image& image) {
   return range;
 }
 
-void judge_alpha(const Image& image, Material& material, std::vector<std::string>& warnings) {
-  if (material.alpha_mode != AlphaMode::opaque || image.empty()) return;
+void judge_alpha(TreeModel& tree, Material& material) {
+  if (material.alpha_mode != AlphaMode::opaque || material.base_color_image < 0) return;
+  const Image& image = tree.images[material.base_color_image];
+  if (image.empty()) return;
   const OpacityRange range = opacity_range(image);
   if (range.has_holes()) material.alpha_mode = AlphaMode::mask;
   if (range.shows_nothing()) {
-    warnings.push_back(in_quotes(image.name) +
-                       ": nothing in it is opaque; its alpha is passed over");
+    tree.warnings.push_back(in_quotes(image.name) +
+                            ": nothing in it is opaque; its alpha is passed over");
   }
 }
 

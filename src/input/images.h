@@ -19,10 +19,6 @@ inline double share_of(double channel) {
 /// empty image and sets `reason` where that is not possible.
 Image decode_image(ByteSpan bytes, const std::string& name, std::string& reason);
 
-/// Empties an image, and sets `reason`, where it would make those of a tree larger than 2 GiB: a
-/// few bytes may hold many large ones.
-void keep_small(const std::vector<Image>& images, Image& image, std::string& reason);
-
 /// The least and the greatest opacity of an image's texels.
 struct OpacityRange {
   int low = 255, high = 0;
@@ -34,9 +30,9 @@ struct OpacityRange {
 };
 OpacityRange opacity_range(const Image& image);
 
-/// Where a file has no word for it: an opaque material whose image has holes is cut out there, and
-/// one whose image shows nothing at all is not, which `warnings` get a line for.
-void judge_alpha(const Image& image, Material& material, std::vector<std::string>& warnings);
+/// Where a file has no word for it: an opaque material of `tree` whose image has holes is cut out
+/// there, and one whose image shows nothing at all is not, which gets a warning.
+void judge_alpha(TreeModel& tree, Material& material);
 
 /// A colour image, or white where it is empty, with the opacity that another shows: in its alpha
 /// where it has one, else in its grey. It has the size of the opacity.

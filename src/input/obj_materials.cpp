@@ -7,10 +7,10 @@
 #include <set>
 #include <span>
 #include <sstream>
-#include <tuple>
 #include <utility>
 
 #include "input/file_bytes.h"
+#include "input/image_table.h"
 #include "input/images.h"
 #include "input/input_error.h"
 #include "input/obj_text.h"
@@ -46,33 +46,6 @@ std::vector<std::string> library_names(const std::string& line, const Companions
   }
   if (names.size() == 1 || is_there(companions, line)) return {line};
   return names;
-}
-
-/// An image beside the file; empty, with a warning, where it cannot be read.
-Image read_image(const std::string& name, const Companions& companions,
-                 std::vector<std::string>& warnings) {
-  std::string reason;
-  Image image;
-  try {
-    image = decode_image(read_companion(companions, name, warnings), name, reason);
-  } catch (const FileError& error) {
-    reason = error.what();
-  }
-  if (!reason.empty()) warnings.push_back(in_quotes(name) + ": texture not read: " + reason);
-  return image;
-}
-
-/// The image of a material; empty, with a warning, where it cannot be read.
-Image image_of(const std::string& color, const std::string& alpha, const Companions& companions,
-               std::vector<std::string>& warnings) {
-  Image image;
-  if (!color.empty()) image = read_image(color, companions, warnings);
-  if (!alpha.empty() && alpha != color) {
-    Image mask = read_image(alpha, companions, warnings);
-    if (!mask.empty()) image = with_opacity(image, std::move(mask));
-  }
-  image.name = color.empty() ? alpha : color;
-  return image;
 }
 
 std::string quoted_list(const std::vector<std::string>& names) {
@@ -184,7 +157,7 @@ int ObjMaterials::find_or_add(const std::string& name) {
 
 void add_materials(const ObjMaterials& from, const std::vector<bool>& used,
                    const Companions& companions, TreeModel& tree) {
-  std::map<std::pair<std::string, std::string>, int> images;  // by map_Kd and map_d
+  ImageTable images;
   std::vector<std::string> unknown;
   for (std::size_t i = 0; i < from.materials.size(); ++i) {
     const tinyobj_double::material_t& source = from.materials[i];
@@ -202,14 +175,15 @@ void add_materials(const ObjMaterials& from, const std::vector<bool>& used,
 
     if (!used[i]) continue;
     if (from.in_libraries > 0 && i >= from.in_libraries) unknown.push_back(source.name);
-    const auto& [color, alpha] = std::tie(source.diffuse_texname, source.alpha_texname);
-    if (color.empty() && alpha.empty()) continue;
-    const auto [entry, is_new] =
-        images.emplace(std::pair(color, alpha), static_cast<int>(tree.images.size()));
-    if (is_new) tree.images.push_back(image_of(color, alpha, companions, tree.warnings));
-    material.base_color_image = entry->second;
-    judge_alpha(tree.images[entry->second], material, tree.warnings);
+    const ImageNames names(source.diffuse_texname, source.alpha_texname);
+    if (names == ImageNames()) continue;
+    const auto load = [&](const std::string& name) {
+      return companion_image(companions, name, tree.warnings);
+    };
+    material.base_color_image = images.number_of(names, load, tree);
   }
+  images.decode(tree);
+  for (Material& material : tree.materials) judge_alpha(tree, material);
   if (!unknown.empty()) {
     tree.warnings.push_back("no material library has " + quoted_list(unknown));
   }

@@ -75,6 +75,7 @@ class FbxReader {
     tree_.nodes.resize(scene_.nodes.count);
     for (std::size_t i = 0; i < scene_.nodes.count; ++i) describe(*scene_.nodes.data[i]);
     for (std::size_t i = 0; i < scene_.nodes.count; ++i) place(*scene_.nodes.data[i]);
+    materials_.decode_images();
     if (unread_ > 0) {
       tree_.warnings.push_back(std::to_string(unread_) + " NURBS or lines are passed over");
     }

@@ -29,7 +29,9 @@ std::string name_of(const ufbx_texture* texture) {
   std::string relative = text_of(texture->relative_filename);
   if (!relative.empty()) return relative;
   const std::string absolute = text_of(texture->absolute_filename);
-  return absolute.empty() ? text_of(texture->name) : absolute;
+  if (!absolute.empty()) return absolute;
+  const std::string own = text_of(texture->name);
+  return own.empty() ? "texture " + std::to_string(texture->typed_id) : own;
 }
 
 Wrap wrap_of(ufbx_wrap_mode mode) { return mode == UFBX_WRAP_CLAMP ? Wrap::clamp : Wrap::repeat; }
@@ -76,45 +78,27 @@ Material FbxMaterials::read(const ufbx_material& material) {
   if (const ufbx_texture* shown = colour ? colour : opacity) {
     read.wrap_u = wrap_of(shown->wrap_u);
     read.wrap_v = wrap_of(shown->wrap_v);
-    read.base_color_image = read_image(colour, opacity);
-    judge_alpha(tree_.images[read.base_color_image], read, tree_.warnings);
+    const ImageNames names(name_of(colour), name_of(opacity));
+    const auto source = [&](const std::string& name) {
+      return load(name == names.first ? *colour : *opacity);
+    };
+    read.base_color_image = images_.number_of(names, source, tree_);
   }
   return read;
 }
 
-int FbxMaterials::read_image(const ufbx_texture* colour, const ufbx_texture* opacity) {
-  const std::pair names(name_of(colour), name_of(opacity));
-  const auto [entry, is_new] = images_.emplace(names, static_cast<int>(tree_.images.size()));
-  if (!is_new) return entry->second;
-  Image image;
-  if (colour) image = decode(*colour);
-  if (opacity && names.first != names.second) {
-    Image mask = decode(*opacity);
-    if (!mask.empty()) image = with_opacity(image, std::move(mask));
-  }
-  image.name = colour ? names.first : names.second;
-  tree_.images.push_back(std::move(image));
-  return entry->second;
+ImageSource FbxMaterials::load(const ufbx_texture& texture) {
+  const ufbx_blob& content = texture.content;
+  const std::string name = name_of(&texture);
+  if (content.size == 0) return companion_image(companions_, name, tree_.warnings);
+  return {.name = name,
+          .place = in_quotes(name),
+          .lent = {static_cast<const std::uint8_t*>(content.data), content.size}};
 }
 
-Image FbxMaterials::decode(const ufbx_texture& texture) {
-  const std::string name = name_of(&texture);
-  std::string reason;
-  Image image;
-  const ufbx_blob& content = texture.content;
-  try {
-    if (content.size > 0) {
-      image = decode_image({static_cast<const std::uint8_t*>(content.data), content.size}, name,
-                           reason);
-    } else {
-      image = decode_image(read_companion(companions_, name, tree_.warnings), name, reason);
-    }
-  } catch (const FileError& error) {
-    reason = error.what();
-  }
-  keep_small(tree_.images, image, reason);
-  if (!reason.empty()) tree_.warnings.push_back(in_quotes(name) + ": texture not read: " + reason);
-  return image;
+void FbxMaterials::decode_images() {
+  images_.decode(tree_);
+  for (Material& material : tree_.materials) judge_alpha(tree_, material);
 }
 
 }  // namespace leafhull

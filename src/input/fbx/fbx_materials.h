@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "input/companions.h"
+#include "input/image_table.h"
 #include "leafhull/tree.h"
 
 namespace leafhull {
@@ -21,18 +22,20 @@ class FbxMaterials {
   /// The tree's number of a material; -1 for none.
   int use(const ufbx_material* material);
 
+  /// Decodes the images of the materials that are used.
+  void decode_images();
+
   /// The texture that colours a material, or null.
   static const ufbx_texture* colour_texture(const ufbx_material* material);
 
  private:
   Material read(const ufbx_material& material);
-  int read_image(const ufbx_texture* colour, const ufbx_texture* opacity);
-  Image decode(const ufbx_texture& texture);
+  ImageSource load(const ufbx_texture& texture);
 
   const Companions& companions_;
   TreeModel& tree_;
   std::map<const ufbx_material*, int> numbers_;
-  std::map<std::pair<std::string, std::string>, int> images_;  ///< by colour and opacity
+  ImageTable images_;
 };
 
 }  // namespace leafhull
