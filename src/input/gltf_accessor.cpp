@@ -136,16 +136,24 @@ std::size_t bytes_at_hand(const GltfFile& file) {
                          [](std::size_t sum, ByteSpan b) { return sum + b.size(); });
 }
 
-/// What an element of an accessor is read into: so many floats or indices, and nothing else.
+/// What elements of an accessor are read into: so many floats or indices, and nothing else.
 template <class Element>
 struct ElementType {
   using Out = float;
   static constexpr int kComponents = sizeof(Element) / sizeof(float);
+  static constexpr std::size_t kElements = 1;
 };
 template <>
 struct ElementType<std::uint32_t> {
   using Out = std::uint32_t;
   static constexpr int kComponents = 1;
+  static constexpr std::size_t kElements = 1;
+};
+template <>
+struct ElementType<std::array<std::uint32_t, 3>> {
+  using Out = std::uint32_t;
+  static constexpr int kComponents = 1;
+  static constexpr std::size_t kElements = 3;
 };
 
 int type_of(int components) {
@@ -162,6 +170,7 @@ template <class Element>
 std::vector<Element> read(GltfFile& file, int index, const std::string& user) {
   using Out = typename ElementType<Element>::Out;
   constexpr int kComponents = ElementType<Element>::kComponents;
+  constexpr std::size_t kElements = ElementType<Element>::kElements;
   static_assert(std::is_standard_layout_v<Element> && alignof(Element) == alignof(Out));
   if (!is_index(index, file.model.accessors.size())) {
     file.fail(user, "there is no " + place_of("accessors", index));
@@ -178,6 +187,11 @@ std::vector<Element> read(GltfFile& file, int index, const std::string& user) {
               "componentType " + std::to_string(accessor.componentType) + " is not allowed here");
   }
 
+  if (accessor.count % kElements != 0) {
+    file.fail(place,
+              "its " + std::to_string(accessor.count) + " indices are not three per triangle");
+  }
+
   Elements shape{.count = accessor.count,
                  .components = kComponents,
                  .component_type = accessor.componentType,
@@ -189,13 +203,13 @@ std::vector<Element> read(GltfFile& file, int index, const std::string& user) {
     }
     const Elements elements =
         elements_of(file, accessor.bufferView, accessor.byteOffset, shape, place);
-    out.resize(shape.count);
+    out.resize(shape.count / kElements);
     copy(elements, 0, shape.count, reinterpret_cast<Out*>(out.data()));
   } else if (accessor.count > bytes_at_hand(file)) {
     file.fail(place, "its " + std::to_string(accessor.count) +
                          " elements have no bufferView and outnumber the bytes of the file");
   } else {
-    out.resize(shape.count);
+    out.resize(shape.count / kElements);
   }
   if (accessor.sparse.isSparse) {
     put_sparse_values(file, accessor, shape, reinterpret_cast<Out*>(out.data()), place);
@@ -258,6 +272,11 @@ std::vector<Vec3f> read_colors(GltfFile& file, int accessor, const std::string& 
 
 std::vector<std::uint32_t> read_indices(GltfFile& file, int accessor, const std::string& user) {
   return read<std::uint32_t>(file, accessor, user);
+}
+
+std::vector<std::array<std::uint32_t, 3>> read_triangles(GltfFile& file, int accessor,
+                                                         const std::string& user) {
+  return read<std::array<std::uint32_t, 3>>(file, accessor, user);
 }
 
 std::string accessor_place(const std::string& user, int accessor) {

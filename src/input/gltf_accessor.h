@@ -35,8 +35,10 @@ std::vector<std::array<float, 16>> read_mat4(GltfFile& file, int accessor, const
 /// The red, green and blue of colours, which may have an alpha too.
 std::vector<Vec3f> read_colors(GltfFile& file, int accessor, const std::string& user);
 
-/// The same for unsigned scalars.
+/// The same for unsigned scalars, one by one or three per triangle.
 std::vector<std::uint32_t> read_indices(GltfFile& file, int accessor, const std::string& user);
+std::vector<std::array<std::uint32_t, 3>> read_triangles(GltfFile& file, int accessor,
+                                                         const std::string& user);
 
 /// "meshes[0], POSITION (accessors[3])"
 std::string accessor_place(const std::string& user, int accessor);

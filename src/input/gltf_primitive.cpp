@@ -20,17 +20,15 @@ bool is_finite(Vec3f v) { return std::isfinite(v.x) && std::isfinite(v.y) && std
 
 bool is_color(Vec3f v) { return is_finite(v); }
 
-std::vector<Triangle> triangles_of(const std::vector<std::uint32_t>& vertices, int mode) {
+std::vector<std::uint32_t> numbers_to(std::size_t count) {
+  std::vector<std::uint32_t> numbers(count);
+  std::iota(numbers.begin(), numbers.end(), 0u);
+  return numbers;
+}
+
+std::vector<Triangle> strip_or_fan(const std::vector<std::uint32_t>& vertices, int mode) {
   std::vector<Triangle> triangles;
-  const std::size_t count = vertices.size();
-  if (mode == TINYGLTF_MODE_TRIANGLES) {
-    triangles.reserve(count / 3);
-    for (std::size_t i = 0; i + 2 < count; i += 3) {
-      triangles.push_back({vertices[i], vertices[i + 1], vertices[i + 2]});
-    }
-    return triangles;
-  }
-  for (std::size_t i = 0; i + 2 < count; ++i) {
+  for (std::size_t i = 0; i + 2 < vertices.size(); ++i) {
     const std::size_t odd = i % 2;
     const Triangle triangle =
         mode == TINYGLTF_MODE_TRIANGLE_STRIP
@@ -51,16 +49,16 @@ int attribute(const tinygltf::Primitive& source, const std::string& name) {
 
 // Submeshes often share one long list of vertices.
 void drop_unused_vertices(Primitive& primitive) {
-  constexpr std::uint32_t kUnused = ~0u;
-  std::vector<std::uint32_t> renumbered(primitive.positions.size(), kUnused);
+  std::vector<bool> is_used(primitive.positions.size());
   for (const Triangle& triangle : primitive.triangles) {
-    for (const std::uint32_t vertex : triangle) renumbered[vertex] = 0;
+    for (const std::uint32_t vertex : triangle) is_used[vertex] = true;
   }
-  if (std::ranges::find(renumbered, kUnused) == renumbered.end()) return;
+  if (std::ranges::find(is_used, false) == is_used.end()) return;
 
+  std::vector<std::uint32_t> renumbered(is_used.size());
   std::uint32_t kept = 0;
-  for (std::size_t i = 0; i < renumbered.size(); ++i) {
-    if (renumbered[i] == kUnused) continue;
+  for (std::size_t i = 0; i < is_used.size(); ++i) {
+    if (!is_used[i]) continue;
     primitive.positions[kept] = primitive.positions[i];
     if (!primitive.normals.empty()) primitive.normals[kept] = primitive.normals[i];
     if (!primitive.uvs.empty()) primitive.uvs[kept] = primitive.uvs[i];
@@ -126,18 +124,28 @@ class PrimitiveReader {
         warnings_.push_back(std::string(error.what()) + "; the colours are passed over");
       }
     }
-    std::vector<std::uint32_t> vertices;
-    if (source_.indices >= 0) {
-      vertices = read_indices(file_, source_.indices, place_ + ", indices");
+    const std::string place = place_ + ", indices";
+    if (source_.mode != TINYGLTF_MODE_TRIANGLES) {
+      primitive.triangles =
+          strip_or_fan(source_.indices >= 0 ? read_indices(file_, source_.indices, place)
+                                            : numbers_to(primitive.positions.size()),
+                       source_.mode);
+    } else if (source_.indices >= 0) {
+      primitive.triangles = read_triangles(file_, source_.indices, place);
     } else {
-      vertices.resize(primitive.positions.size());
-      std::iota(vertices.begin(), vertices.end(), 0u);
+      primitive.triangles = triangles_in_order(primitive.positions.size());
     }
-    if (source_.mode == TINYGLTF_MODE_TRIANGLES && vertices.size() % 3 != 0) {
-      file_.fail(place_, "its " + std::to_string(vertices.size()) +
-                             " indices or vertices are not three per triangle");
+  }
+
+  std::vector<Triangle> triangles_in_order(std::size_t vertices) {
+    if (vertices % 3 != 0) {
+      file_.fail(place_,
+                 "its " + std::to_string(vertices) + " vertices are not three per triangle");
     }
-    primitive.triangles = triangles_of(vertices, source_.mode);
+    std::vector<Triangle> triangles;
+    triangles.reserve(vertices / 3);
+    for (std::uint32_t i = 0; i < vertices; i += 3) triangles.push_back({i, i + 1, i + 2});
+    return triangles;
   }
 
   void check(Primitive& primitive) {
