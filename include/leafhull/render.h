@@ -45,7 +45,7 @@ struct View {
 /// Reads a camera: a .json object with `eye`, `target` and perhaps `up` and `angle`, as in View, or
 /// the first perspective camera in the scene of a .glb or .gltf.
 /// @throws Error input: the file, the key in it and what is wrong.
-View read_view(const std::filesystem::path& file);
+View read_view(const std::filesystem::path& file, const ReadOptions& options = {});
 
 /// How a watercolour is painted; only leafhull's own painter looks inside.
 using WatercolourStyle = std::shared_ptr<const watercolour::Style>;

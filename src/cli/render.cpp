@@ -30,10 +30,10 @@ Surfacing surfacing(const Arguments& arguments) {
 }
 
 /// A viewpoint by its name, else the camera in a file.
-std::variant<Viewpoint, View> camera_of(const std::string& text) {
+std::variant<Viewpoint, View> camera_of(const std::string& text, const ReadOptions& reading) {
   const auto valid = names(Viewpoint{});
   const bool is_name = std::find(valid.begin(), valid.end(), text) != valid.end();
-  if (!is_name && looks_like_file(text)) return read_view(text);
+  if (!is_name && looks_like_file(text)) return read_view(text, reading);
   return static_cast<Viewpoint>(choice("--camera", text, valid));
 }
 
@@ -116,7 +116,7 @@ PictureOptions checked(const Arguments& arguments) {
   if (arguments.figure17) check_figure17_flags(arguments);
   check_pictures(arguments.pictures, arguments.tree);
   PictureOptions drawing = arguments.drawing;
-  drawing.camera = camera_of(arguments.camera);
+  drawing.camera = camera_of(arguments.camera, arguments.options.read_options());
   drawing.style = style_of(arguments.watercolour_style, arguments.detail);
   check_size(arguments, drawing);
   return drawing;

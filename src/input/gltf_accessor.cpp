@@ -187,15 +187,14 @@ std::vector<Element> read(GltfFile& file, int index, const std::string& user) {
               "componentType " + std::to_string(accessor.componentType) + " is not allowed here");
   }
 
-  if (accessor.count % kElements != 0) {
-    file.fail(place,
-              "its " + std::to_string(accessor.count) + " indices are not three per triangle");
-  }
-
   Elements shape{.count = accessor.count,
                  .components = kComponents,
                  .component_type = accessor.componentType,
                  .normalized = accessor.normalized};
+  const auto check_groups = [&] {
+    if (shape.count % kElements == 0) return;
+    file.fail(place, "its " + std::to_string(shape.count) + " indices are not three per triangle");
+  };
   std::vector<Element> out;
   if (accessor.bufferView >= 0) {
     if (is_index(accessor.bufferView, file.model.bufferViews.size())) {
@@ -203,12 +202,14 @@ std::vector<Element> read(GltfFile& file, int index, const std::string& user) {
     }
     const Elements elements =
         elements_of(file, accessor.bufferView, accessor.byteOffset, shape, place);
+    check_groups();
     out.resize(shape.count / kElements);
     copy(elements, 0, shape.count, reinterpret_cast<Out*>(out.data()));
   } else if (accessor.count > bytes_at_hand(file)) {
     file.fail(place, "its " + std::to_string(accessor.count) +
                          " elements have no bufferView and outnumber the bytes of the file");
   } else {
+    check_groups();
     out.resize(shape.count / kElements);
   }
   if (accessor.sparse.isSparse) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "input/obj_vertices.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "colour/colour.h"
@@ -9,6 +11,8 @@
 
 namespace leafhull {
 namespace {
+
+constexpr std::array<std::string_view, 5> kUnread{"p", "l", "curv", "curv2", "surf"};
 
 double take_number(std::string_view& line) { return finite_number(take_word(line)); }
 
@@ -40,7 +44,7 @@ Vec2d take_uv(std::string_view& line) {
 ObjVertices read_obj_vertices(std::string_view text, const std::string& file,
                               std::vector<std::string>& warnings) {
   ObjVertices vertices;
-  std::size_t bad_normals = 0, bad_uvs = 0;
+  std::size_t bad_normals = 0, bad_uvs = 0, unread = 0;
   for (std::size_t number = 1; !text.empty(); ++number) {
     const std::string_view line = take_line(text);
     std::string_view rest = line;
@@ -61,9 +65,14 @@ ObjVertices read_obj_vertices(std::string_view text, const std::string& file,
       const Vec2d uv = take_uv(rest);
       bad_uvs += std::isnan(uv.x + uv.y);
       vertices.uvs.push_back(uv);
+    } else {
+      unread += std::ranges::find(kUnread, keyword) != kUnread.end();
     }
   }
   if (vertices.colors.size() < vertices.positions.size()) vertices.colors.clear();
+  if (unread > 0) {
+    warnings.push_back(std::to_string(unread) + " points, lines or curves are passed over");
+  }
   if (bad_normals > 0) warnings.push_back("vn: " + std::string(kNotAllFinite));
   if (bad_uvs > 0) warnings.push_back("vt: " + std::string(kNotAllFinite));
   return vertices;

@@ -18,6 +18,7 @@ struct ObjVertices {
 };
 
 /// From `obj_text`. tinyobjloader reads what is not a number as zero.
+/// @param warnings gets a line for values that are not finite, one for what is no face.
 /// @throws Error input: a v line is not three finite numbers.
 ObjVertices read_obj_vertices(std::string_view text, const std::string& file,
                               std::vector<std::string>& warnings);

@@ -90,8 +90,8 @@ View read_json(std::string_view text, const std::string& file) {
 }
 
 /// A camera of glTF looks along its node's -z. Source: glTF 2.0, 3.10.
-View read_node(ByteSpan bytes, const std::filesystem::path& path) {
-  const GltfFile file = open_gltf(bytes, path.string(), Companions(path, false));
+View read_node(ByteSpan bytes, const std::filesystem::path& path, bool allow_outside) {
+  const GltfFile file = open_gltf(bytes, path.string(), Companions(path, allow_outside));
   const std::vector<PlacedCamera> placed = place_cameras(file);
   const auto found = std::ranges::find_if(placed, [&](const PlacedCamera& camera) {
     return file.cameras[camera.camera].type == "perspective";
@@ -110,7 +110,7 @@ View read_node(ByteSpan bytes, const std::filesystem::path& path) {
 
 }  // namespace
 
-View read_view(const std::filesystem::path& path) {
+View read_view(const std::filesystem::path& path, const ReadOptions& options) {
   const Bytes bytes = [&] {
     try {
       return read_file(path, Pipes::read);
@@ -119,7 +119,8 @@ View read_view(const std::filesystem::path& path) {
     }
   }();
   const bool is_gltf = lower_extension(path) == ".gltf" || text_of(bytes).starts_with("glTF");
-  return is_gltf ? read_node(bytes, path) : read_json(text_of(bytes), path.string());
+  return is_gltf ? read_node(bytes, path, options.allow_outside)
+                 : read_json(text_of(bytes), path.string());
 }
 
 }  // namespace leafhull

@@ -334,6 +334,12 @@ TEST(Obj, TakesOpacitiesThatCannotBeMeantAsOpaque) {
   }
 }
 
+TEST(Obj, SaysWhatIsNoFace) {
+  const TreeModel tree =
+      read_lines("v 0 0 0\nv 1 0 0\nv 0 1 0\nl 1 2\np 3\ncurv 0 1 1 2\nf 1 2 3\n");
+  EXPECT_EQ(tree.warnings, std::vector<std::string>{"3 points, lines or curves are passed over"});
+}
+
 TEST(Obj, NamesMaterialsThatNoLibraryHas) {
   const ObjFolder files;
   files.write("t.mtl", "newmtl leaf\nKd 0 0 0\n");

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <random>
 
+#include "leaves/sheets.h"
 #include "leaves_models.h"
 
 namespace leafhull {
@@ -139,20 +140,51 @@ TEST_P(LeafOrder, HowTheFileStoresTheLeavesChangesNoBit) {
   expect_equal(find_leaves(reversed, {}), expected);
 }
 
-TEST_P(LeafOrder, OnePrimitiveOrManyIsTheSame) {
-  Random random(GetParam());
-  const Primitive whole = crown(random, 30);
-  std::vector<Primitive> parts(30);
-  for (std::size_t leaf = 0; leaf < parts.size(); ++leaf) {
-    Primitive& part = parts[leaf];
-    for (std::size_t i = 4 * leaf; i < 4 * leaf + 4; ++i) {
-      part.positions.push_back(whole.positions[i]);
+/// The quads of a crown, so many a primitive.
+std::vector<Primitive> cut_up(const Primitive& whole, std::size_t leaves) {
+  std::vector<Primitive> parts;
+  for (std::size_t first = 0; first < whole.positions.size(); first += 4) {
+    if (first % (4 * leaves) == 0) parts.emplace_back();
+    Primitive& part = parts.back();
+    add_quad(part, {whole.positions[first], whole.positions[first + 1], whole.positions[first + 2],
+                    whole.positions[first + 3]});
+    for (std::size_t i = first; i < first + 4; ++i) {
       part.normals.push_back(whole.normals[i]);
       part.uvs.push_back(whole.uvs[i]);
     }
-    part.triangles = {{0, 1, 2}, {0, 2, 3}};
   }
+  return parts;
+}
+
+TEST_P(LeafOrder, OnePrimitiveOrManyIsTheSame) {
+  Random random(GetParam());
+  const Primitive whole = crown(random, 30);
+  const std::vector<Primitive> parts = cut_up(whole, 1);
+  ASSERT_EQ(parts.size(), 30u);
   expect_equal(find_leaves(tree_of(parts), {}), find_leaves(tree_of({whole}), {}));
+}
+
+void expect_equal_sheets(const LeafSheets& a, const LeafSheets& b) {
+  EXPECT_EQ(a.area, b.area);
+  EXPECT_EQ(a.charts.size(), b.charts.size());
+  ASSERT_EQ(a.sheets.size(), b.sheets.size());
+  for (std::size_t i = 0; i < a.sheets.size(); ++i) {
+    ASSERT_EQ(a.sheets[i].origin, b.sheets[i].origin) << i;
+    ASSERT_EQ(a.sheets[i].area, b.sheets[i].area) << i;
+    ASSERT_EQ(a.sheets[i].piece, b.sheets[i].piece) << i;
+    ASSERT_EQ(a.charts[a.sheets[i].chart].triangles, b.charts[b.sheets[i].chart].triangles) << i;
+  }
+}
+
+// More than are collected at a time, by more than one thread.
+TEST(LeafOrder, ManyLeavesInOnePrimitiveOrInSeveralAreTheSame) {
+  Random random(9);
+  const Primitive whole = crown(random, 20'000);
+  const LeafSet expected = find_leaves(tree_of({whole}), {});
+  const LeafSet leaves = find_leaves(tree_of(cut_up(whole, 700)), {});
+  expect_equal(leaves, expected);
+  expect_equal_sheets(*leaves.sheets, *expected.sheets);
+  EXPECT_EQ(leaves.order_in_file.size(), expected.order_in_file.size());
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, LeafOrder, ::testing::Values(1u, 2u, 3u, 4u));
