@@ -71,25 +71,24 @@ std::string name_of(const Arguments& a, int resolution) {
 
 void write(const Arguments& a) {
   const LeafSet leaves = load_leaves(a.tree);
-  Report report;
-  report.options = options_of(a);
-  set_grid(leaves, report);
+  const Options options = options_of(a);
+  const Grid grid = grid_of(leaves, options);
   std::filesystem::create_directories(a.folder);
   const std::filesystem::path folder = std::filesystem::canonical(a.folder);
   const bool synthetic = a.tree.starts_with("synthetic:");
-  const Case c{.name = name_of(a, report.resolution),
+  const Case c{.name = name_of(a, grid.resolution),
                .tree = synthetic ? a.tree : std::filesystem::canonical(a.tree).string(),
                .points = folder / "points.f64",
                .frames = folder / "frames.f64",
                .count = leaves.vertices.size(),
                .style = a.style,
-               .radius = report.radius_max_model,
-               .voxel = report.voxel_size,
-               .resolution = report.resolution,
-               .threshold = report.options.threshold,
-               .coverage = report.options.coverage,
-               .flatness = *report.options.flatness,
-               .min_component = *report.options.min_component};
+               .radius = grid.radius_max,
+               .voxel = grid.voxel_size,
+               .resolution = grid.resolution,
+               .threshold = options.threshold,
+               .coverage = options.coverage,
+               .flatness = *options.flatness,
+               .min_component = *options.min_component};
   write_leaves(leaves, c);
   write_case(c, folder / "case.json");
 }

@@ -35,9 +35,7 @@ double seconds_before_polygonise(const Report& report) {
 /// coverage does.
 double seconds_of_isotropic_field(const LeafSet& leaves, const Report& report, Device& device) {
   return seconds_of([&] {
-    Report grid;
-    grid.options = report.options;
-    const Lattice lattice = set_grid(leaves, grid);
+    const Lattice lattice = grid_of(leaves, report.options).lattice;
     const std::vector<Kernel> kernels = isotropic_kernels(
         vertex_points(leaves).points, report.radius_max_model, report.options.falloff);
     const auto hash =

@@ -20,18 +20,19 @@ constexpr double kSmallestRadius = 1e-3;
 /// of its parts, which control must not enlarge.
 constexpr double kLeastSpread = 0.15;
 
-[[noreturn]] void refuse_upside_down(const DensityStatistics& s, const Options& resolved) {
+std::string text_of(const BandEnd& end) {
+  char value[40];
+  std::snprintf(value, sizeof value, end.percent ? "%g%%" : "%g",
+                end.percent ? *end.percent : *end.deviations);
+  return value;
+}
+
+[[noreturn]] void refuse_upside_down(const DensityStatistics& s, const ControlOptions& options) {
   char text[200];
-  const auto end = [](std::optional<double> deviations, std::optional<double> percent) {
-    char value[40];
-    std::snprintf(value, sizeof value, percent ? "%g%%" : "%g", percent ? *percent : *deviations);
-    return std::string(value);
-  };
   std::snprintf(text, sizeof text,
                 "the band is upside down: --band-low %s is a density of %.4g on this tree, "
                 "--band-high %s one of %.4g",
-                end(resolved.band_low, resolved.band_low_percent).c_str(), s.p1,
-                end(resolved.band_high, resolved.band_high_percent).c_str(), s.p2);
+                text_of(options.low).c_str(), s.p1, text_of(options.high).c_str(), s.p2);
   throw Error(ErrorCode::usage, text, "Give both ends in percent, or both as deviations.");
 }
 
@@ -53,9 +54,19 @@ Kernel kernel_at(const LeafPoint& leaf, Vec3d radii, int falloff) {
 
 }  // namespace
 
+ControlOptions control_options(const Options& resolved) {
+  return {.method = *resolved.method,
+          .points = *resolved.points,
+          .spread = resolved.spread,
+          .low = {resolved.band_low, resolved.band_low_percent},
+          .high = {resolved.band_high, resolved.band_high_percent},
+          .flatness = *resolved.flatness,
+          .falloff = resolved.falloff};
+}
+
 DensityStatistics density_statistics(std::span<const LeafPoint> leaves,
                                      std::span<const float> isotropic_density, const Box& crown,
-                                     const Options& resolved) {
+                                     const ControlOptions& options) {
   const auto weight = [&](std::size_t j) {
     if (!crown.contains(leaves[j].position)) return 0.0;
     return leaves[j].area > 0 ? leaves[j].area : 1.0;
@@ -85,23 +96,23 @@ DensityStatistics density_statistics(std::span<const LeafPoint> leaves,
     }
     return static_cast<double>(isotropic_density[ranked.back()]);
   };
-  return band(mean, variance / all, quantile, resolved);
+  return band(mean, variance / all, quantile, options);
 }
 
 DensityStatistics band(double mean, double variance, const DensityQuantile& quantile,
-                       const Options& resolved) {
-  const bool area = resolved.points == PointSource::area;
-  double spread = resolved.spread == Spread::stddev ? std::sqrt(variance) : variance;
+                       const ControlOptions& options) {
+  const bool area = options.points == PointSource::area;
+  double spread = options.spread == Spread::stddev ? std::sqrt(variance) : variance;
   if (area) spread = std::max(spread, kLeastSpread * mean);
-  const auto end = [&](std::optional<double> deviations, std::optional<double> percent) {
-    return percent ? quantile(*percent / 100) : mean + *deviations * spread;
+  const auto density_at = [&](const BandEnd& end) {
+    return end.percent ? quantile(*end.percent / 100) : mean + *end.deviations * spread;
   };
   DensityStatistics s{.mean = mean,
                       .variance = variance,
-                      .p1 = end(resolved.band_low, resolved.band_low_percent),
-                      .p2 = end(resolved.band_high, resolved.band_high_percent)};
-  if (s.p1 > s.p2) refuse_upside_down(s, resolved);
-  if (area && resolved.band_low_percent && resolved.band_high_percent) {
+                      .p1 = density_at(options.low),
+                      .p2 = density_at(options.high)};
+  if (s.p1 > s.p2) refuse_upside_down(s, options);
+  if (area && options.low.percent && options.high.percent) {
     const double missing = std::max(0.0, 2 * kLeastSpread * mean - (s.p2 - s.p1));
     s.p1 -= missing / 2;
     s.p2 += missing / 2;
@@ -128,31 +139,30 @@ double anisotropy(double n, const DensityStatistics& statistics) {
 std::vector<Kernel> controlled_kernels(std::span<const LeafPoint> leaves,
                                        std::span<const float> isotropic_density,
                                        const DensityStatistics& statistics, double radius_max,
-                                       const Options& resolved) {
+                                       const ControlOptions& options) {
   std::vector<Kernel> kernels;
   kernels.reserve(leaves.size());
   for (std::size_t j = 0; j < leaves.size(); ++j) {
     kernels.push_back(
-        controlled_kernel(leaves[j], isotropic_density[j], statistics, radius_max, resolved));
+        controlled_kernel(leaves[j], isotropic_density[j], statistics, radius_max, options));
   }
   return kernels;
 }
 
 Kernel controlled_kernel(const LeafPoint& leaf, float density, const DensityStatistics& statistics,
-                         double radius_max, const Options& resolved) {
-  if (resolved.method == Method::isotropic) {
-    return kernel_at(leaf, {radius_max, radius_max, radius_max}, resolved.falloff);
+                         double radius_max, const ControlOptions& options) {
+  if (options.method == Method::isotropic) {
+    return kernel_at(leaf, {radius_max, radius_max, radius_max}, options.falloff);
   }
-  const double share =
-      resolved.method == Method::uncontrolled ? 1 : anisotropy(density, statistics);
+  const double share = options.method == Method::uncontrolled ? 1 : anisotropy(density, statistics);
   const auto radius = [&](double of_leaf) {
     const double r = radius_max + (of_leaf - radius_max) * share;
     return std::clamp(r, kSmallestRadius * radius_max, radius_max);
   };
   const double minor = leaf.radius_minor;
   return kernel_at(leaf,
-                   {radius(leaf.radius_major), radius(minor), radius(*resolved.flatness * minor)},
-                   resolved.falloff);
+                   {radius(leaf.radius_major), radius(minor), radius(options.flatness * minor)},
+                   options.falloff);
 }
 
 namespace {

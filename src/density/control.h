@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <compare>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -13,12 +14,31 @@
 
 namespace leafhull {
 
+/// An end of the band between isotropic kernels and those of their leaves: so many spreads above
+/// the mean density, or the density that a percentage of the leaves does not exceed.
+struct BandEnd {
+  std::optional<double> deviations, percent;
+  auto operator<=>(const BandEnd&) const = default;
+};
+
+/// How kernels are controlled. As in Options.
+struct ControlOptions {
+  Method method = Method::controlled;
+  PointSource points = PointSource::area;
+  Spread spread = Spread::stddev;
+  BandEnd low{}, high{};  ///< p1 and p2
+  double flatness = 1;    ///< lambda_R
+  int falloff = 2;        ///< k
+  auto operator<=>(const ControlOptions&) const = default;
+};
+ControlOptions control_options(const Options& resolved);
+
 /// Mean and variance of N_iso over the leaf points in `crown`, by their area, and the densities p1
 /// and p2 between which kernels go from isotropic to the shape of their leaf. Source: Eqs. (9),
 /// (10); the paper prints the variance for the spread (SPEC: 3, open point).
 DensityStatistics density_statistics(std::span<const LeafPoint> leaves,
                                      std::span<const float> isotropic_density, const Box& crown,
-                                     const Options& resolved);
+                                     const ControlOptions& options);
 
 /// The density that a share of the leaf area, from 0 to 1, does not exceed.
 using DensityQuantile = std::function<double(double share)>;
@@ -26,7 +46,7 @@ using DensityQuantile = std::function<double(double share)>;
 /// The same from a mean, a variance and quantiles.
 /// @throws Error usage: p1 above p2.
 DensityStatistics band(double mean, double variance, const DensityQuantile& quantile,
-                       const Options& resolved);
+                       const ControlOptions& options);
 
 /// The kernels that measure N_iso: radius `radius_max` (model units) in every direction. A kernel
 /// of leaf area a has the weight (k + 1) a / (pi R_u R_v), so that N counts layers of leaf; one at
@@ -40,11 +60,11 @@ std::vector<Kernel> isotropic_kernels(std::span<const LeafPoint> leaves, double 
 std::vector<Kernel> controlled_kernels(std::span<const LeafPoint> leaves,
                                        std::span<const float> isotropic_density,
                                        const DensityStatistics& statistics, double radius_max,
-                                       const Options& resolved);
+                                       const ControlOptions& options);
 
 /// One of them, for a leaf point with N_iso = `density` there.
 Kernel controlled_kernel(const LeafPoint& leaf, float density, const DensityStatistics& statistics,
-                         double radius_max, const Options& resolved);
+                         double radius_max, const ControlOptions& options);
 
 /// The share of anisotropy at density n, 0 at p1 and below to 1 at p2 and above. Source: Eq. (8).
 double anisotropy(double n, const DensityStatistics& statistics);

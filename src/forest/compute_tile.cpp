@@ -50,9 +50,10 @@ class Place {
       });
     }
     const std::vector<float> isotropic = isotropic_at(local_centres(runs), runs);
+    const ControlOptions control = control_options(level_.options);
     return density(runs, [&](const ForestModel& model, std::size_t j, std::size_t at) {
       Kernel kernel = controlled_kernel(model.leaves[j], isotropic[at], *level_.scene_statistics,
-                                        model.radius_max, level_.options);
+                                        model.radius_max, control);
       kernel.weight = model.kernels[j].weight;
       return kernel;
     });

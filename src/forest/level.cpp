@@ -11,7 +11,7 @@
 #include "leafhull/error.h"
 #include "pipeline/evaluate.h"
 #include "pipeline/grid.h"
-#include "pipeline/stages.h"
+#include "pipeline/sliders.h"
 #include "surface/brick_mesher.h"
 
 namespace leafhull {
@@ -77,30 +77,29 @@ ForestModel prepare_model(const LeafSet& all, int level, const Options& resolved
   const Progress no_progress;
   Stopwatch watch(no_progress);
   const LeafSet leaves = thinned(all, level, *resolved.points);
-  Stages stages(leaves, device, watch);
-  Report report;
-  report.options = alone(all, level, resolved);
-  stages.prepare(report);
+  const Run run{leaves, device, watch};
+  const Options options = alone(all, level, resolved);
+  Prepared prepared = Stages(run).prepare(options, options.erosion.value_or(0));
 
   ForestModel model;
-  model.kernels = stages.take_kernels();
+  model.kernels = taken(std::move(prepared.kernels));
   if (resolved.erosion) {
     for (Kernel& k : model.kernels) {
-      k.weight = static_cast<float>(static_cast<double>(k.weight) / report.threshold);
+      k.weight = static_cast<float>(static_cast<double>(k.weight) / prepared.threshold);
     }
   }
-  model.isotropic_density = stages.take_isotropic_density();
-  model.density = stages.take_density_there();
-  LeafPoints points = stages.take_points();
+  model.isotropic_density = taken(std::move(prepared.isotropic_density));
+  model.density = taken(std::move(prepared.there));
+  LeafPoints points = taken(std::move(prepared.points));
   model.leaves = std::move(points.points);
   model.samples = std::move(points.samples);
   model.in_solid = std::move(points.in_solid);
   model.area = points.area;
-  model.radius_max = report.radius_max_model;
+  model.radius_max = prepared.grid.radius_max;
   model.groups = groups_of(model.kernels);
   for (const Kernel& k : model.kernels) model.bounds.include(k.centre);
   model.crown = leaves.crown;
-  model.reach = report.radius_max_model;
+  model.reach = prepared.grid.radius_max;
   return model;
 }
 
@@ -231,12 +230,12 @@ std::vector<Options> shapes_of(std::span<const LeafSet> models, std::span<const 
     if (uses[m].trees == 0) continue;
     const Progress no_progress;
     Stopwatch watch(no_progress);
-    Report report;
-    report.options = resolved;
-    Stages stages(models[m], device, watch);
-    stages.prepare(report);
-    stages.check_dilation(report);
-    shapes[m].radius_max = report.options.radius_max;
+    const Run run{models[m], device, watch};
+    Stages stages(run);
+    Sliders sliders(run, stages, resolved);
+    const Prepared prepared = sliders.prepare();
+    sliders.check_dilation(prepared);
+    shapes[m].radius_max = prepared.options.radius_max;
   }
   return shapes;
 }

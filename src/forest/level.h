@@ -80,7 +80,7 @@ std::vector<LeafSet> read_models(const Scene& scene, std::span<const ModelUse> u
                                  const LeafOptions& options);
 
 /// The options of each model, which differ where a dilation finds R_max model by model.
-/// @throws Error as Stages::prepare does.
+/// @throws Error as Sliders::prepare does.
 std::vector<Options> shapes_of(std::span<const LeafSet> models, std::span<const ModelUse> uses,
                                const Options& resolved, Device& device);
 

@@ -165,7 +165,8 @@ void control_over_scene(const Scene& scene, const TilePlan& plan, int edge,
   ranks.sum(isotropic.counts());
   level.scene_statistics = band(
       moments.mean(), moments.variance(),
-      [&](double share) { return isotropic.not_exceeded_by(share); }, level.options);
+      [&](double share) { return isotropic.not_exceeded_by(share); },
+      control_options(level.options));
 
   if (!level.options.coverage) {
     level.threshold = threshold_of(level, finest, moments.mean());

@@ -5,7 +5,8 @@
 #include <utility>
 
 #include "leafhull/error.h"
-#include "pipeline/stages.h"
+#include "pipeline/describe.h"
+#include "pipeline/sliders.h"
 #include "pipeline/thread_limit.h"
 #include "surface/brick_mesher.h"
 #include "surface/components.h"
@@ -20,10 +21,9 @@ bool reaches(const Field& field) {
 }  // namespace
 
 struct DirectSurface::Impl {
-  Progress progress;
-  Stopwatch watch{progress};
-  /// Of a tree: keep the kernels and lists that the caster reads.
-  std::optional<Stages> stages;
+  /// Of a tree: the kernels and lists that the caster reads.
+  std::shared_ptr<DensityFunction> density;
+  std::shared_ptr<const BrickList> lists;
   Report report;
   std::shared_ptr<const Field> field;
   std::optional<BrickGrid> grid;
@@ -34,32 +34,43 @@ DirectSurface::DirectSurface(const LeafSet& leaves, const Options& options, Devi
                              const Progress& progress)
     : impl_(std::make_unique<Impl>()) {
   const ThreadLimit limit(device);
-  Impl& d = *impl_;
-  d.progress = progress;
-  Stages& stages = d.stages.emplace(leaves, device, d.watch, Stages::Lists::keep);
-  d.report.options = resolve(options);
-  d.report.options.adaptivity = 0;  // it is of meshes, and widens what is sampled
-  stages.prepare(d.report);
-  if (d.report.options.erosion) {
-    d.field = std::make_shared<const Field>(stages.surface(d.report, Mesher::bricks).field);
-  } else {
-    stages.sample(d.report, {d.report.threshold});
-    d.field = std::make_shared<const Field>(stages.take_field(d.report));
-  }
-  const Field& field = *d.field;
-  if (!reaches(field)) stages.refuse_empty(field, d.report);
+  Stopwatch watch(progress);
+  const Run run{leaves, device, watch};
+  Stages stages(run);
+  Options resolved = resolve(options);
+  resolved.adaptivity = 0;  // it is of meshes, and widens what is sampled
+  Sliders sliders(run, stages, resolved);
 
-  d.watch.start("bricks");
-  d.grid.emplace(field);
-  if (const double smallest = *d.report.options.min_component; smallest > 0) {
+  Prepared prepared = sliders.prepare();
+  std::optional<Pieces> pieces;  // that an erosion was measured by
+  Sampled sampled;
+  constexpr auto kKeep = DensityFunction::Lists::keep;
+  if (resolved.erosion) {
+    SampledSurface surface = sliders.surface(prepared, Mesher::bricks, kKeep);
+    sampled = std::move(surface.sampled);
+    pieces = std::move(surface.pieces);
+  } else {
+    sampled = sample(run, prepared, {prepared.threshold}, kKeep);
+    sampled.field = without_hollows(run, prepared, std::move(sampled.field));
+  }
+  if (!reaches(sampled.field)) refuse_empty(prepared, sampled.field);
+
+  Impl& d = *impl_;
+  d.report = describe(run, prepared);
+  if (pieces) describe_pieces(*pieces, d.report);
+  d.density = std::move(sampled.density);
+  d.lists = std::move(sampled.lists);
+  d.field = std::make_shared<const Field>(std::move(sampled.field));
+  watch.start("bricks");
+  d.grid.emplace(*d.field);
+  if (const double smallest = *resolved.min_component; smallest > 0) {
     // The lattice tells the pieces apart, as for a mesh; its polygons are not kept.
-    const ComponentCells cells = cells_of_components(mesh_bricks(field), smallest);
+    const ComponentCells cells = cells_of_components(mesh_bricks(*d.field), smallest);
     d.grid->draw_only(cells.kept, cells.dropped);
   }
-  d.caster.emplace(device, *d.grid, d.report.threshold, stages.density().kernels(), *stages.lists(),
-                   d.report.options.falloff);
-  d.report.seconds = d.watch.finish();
-  d.progress = {};
+  d.caster.emplace(device, *d.grid, prepared.threshold, d.density->kernels(), *d.lists,
+                   resolved.falloff);
+  d.report.seconds = watch.finish();
 }
 
 DirectSurface::DirectSurface(std::shared_ptr<const Field> field, Device& device)

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+// Leaves to their abstract shape, stage by stage. Source: Figure 8, p. 53.
 #include "leafhull/shape.h"
+#include "pipeline/describe.h"
 #include "pipeline/finish_mesh.h"
-#include "pipeline/stages.h"
+#include "pipeline/measure.h"
+#include "pipeline/sliders.h"
 #include "pipeline/thread_limit.h"
 
 namespace leafhull {
@@ -10,27 +13,30 @@ Shape extract(const LeafSet& leaves, const Options& asked, Device& device,
               const Progress& progress) {
   const ThreadLimit limit(device);
   Stopwatch watch(progress);
-  Stages stages(leaves, device, watch);
+  const Run run{leaves, device, watch};
+  Stages stages(run);
+  Sliders sliders(run, stages, resolve(asked));
+
+  Prepared prepared = sliders.prepare();
+  auto [sampled, pieces] = sliders.surface(prepared, prepared.options.mesher);
+  if (pieces.polygons.points.empty()) refuse_empty(prepared, sampled.field);
+
   Shape shape;
-  Report& report = shape.report;
-  report.options = resolve(asked);
-
-  stages.prepare(report);
-  auto [found, polygons] = stages.surface(report, report.options.mesher);
-  shape.field = std::make_shared<const Field>(std::move(found));
-  const Field& field = *shape.field;
-  if (polygons.points.empty()) stages.refuse_empty(field, report);
-
+  shape.report = describe(run, prepared);
+  describe_pieces(pieces, shape.report);
   watch.start("snap");
-  shape.mesh = finish_mesh(std::move(polygons), stages.density(), field.lattice(), report);
+  shape.mesh = finish_mesh(std::move(pieces.polygons), *sampled.density, sampled.field.lattice(),
+                           prepared.threshold, prepared.options.snap);
   shape.mesh.colour = leaves.colour;
-  report.counts.mesh_vertices = shape.mesh.positions.size();
-  report.counts.mesh_triangles = shape.mesh.triangles.size();
+  sampled.density.reset();
 
-  stages.measure(field, report);
-  report.seconds = watch.finish();
-  shape.kernels = stages.take_kernels();
-  shape.isotropic_density = stages.take_isotropic_density();
+  shape.report.metrics = measure(run, stages, prepared, sampled.field, pieces.dropped_cells);
+  describe_mesh(shape.mesh, sampled, shape.report);
+  shape.report.seconds = watch.finish();
+  stages.forget();
+  shape.kernels = taken(std::move(prepared.kernels));
+  shape.isotropic_density = taken(std::move(prepared.isotropic_density));
+  shape.field = std::make_shared<const Field>(std::move(sampled.field));
   return shape;
 }
 

@@ -66,10 +66,9 @@ void take(Polygons polygons, Mesh& mesh) {
 }  // namespace
 
 Mesh finish_mesh(Polygons polygons, DensityFunction& density, const Lattice& lattice,
-                 const Report& report) {
+                 double threshold, bool snap) {
   Mesh mesh;
-  const int steps = report.options.snap ? kSnapSteps : 0;
-  mesh.normals = density.snap(polygons.points, report.threshold, steps);
+  mesh.normals = density.snap(polygons.points, threshold, snap ? kSnapSteps : 0);
   take(std::move(polygons), mesh);
   fill_missing_normals(mesh);
   to_model_units(mesh, lattice);

@@ -6,11 +6,10 @@
 
 namespace leafhull {
 
-/// Polygons in voxels of the lattice, with a report's options and threshold, as the mesh to hand
-/// out: vertices moved onto N = T unless told not to, analytic normals, triangles, model units.
-/// SPEC: 5.
+/// Polygons in voxels of the lattice as the mesh to hand out: vertices moved onto N = `threshold`
+/// where `snap` says so, analytic normals, triangles, model units. SPEC: 5.
 Mesh finish_mesh(Polygons polygons, DensityFunction& density, const Lattice& lattice,
-                 const Report& report);
+                 double threshold, bool snap);
 
 /// The same where the lattice puts the vertices, with normals of the faces around them.
 Mesh lattice_mesh(Polygons polygons, const Lattice& lattice);

@@ -86,15 +86,16 @@ void check_voxels(const LeafSet& leaves, double side, double voxel_size, Density
 
 }  // namespace
 
-Lattice set_grid(const LeafSet& leaves, Report& report) {
-  const Options& options = report.options;
-  report.radius_max_model = radius_max_in_model_units(leaves, options);
-  check_radii(leaves, report.radius_max_model);
-  const double side = leaves.crown.longest_side() + 2 * report.radius_max_model;
-  report.voxel_size = options.voxel_size ? *options.voxel_size : side / *options.resolution;
-  check_voxels(leaves, side, report.voxel_size, options.density);
-  report.resolution = static_cast<int>(std::lround(side / report.voxel_size));
-  return Lattice::near(leaves.crown.low, report.voxel_size);
+Grid grid_of(const LeafSet& leaves, const Options& resolved) {
+  Grid grid;
+  grid.radius_max = radius_max_in_model_units(leaves, resolved);
+  check_radii(leaves, grid.radius_max);
+  const double side = leaves.crown.longest_side() + 2 * grid.radius_max;
+  grid.voxel_size = resolved.voxel_size ? *resolved.voxel_size : side / *resolved.resolution;
+  check_voxels(leaves, side, grid.voxel_size, resolved.density);
+  grid.resolution = static_cast<int>(std::lround(side / grid.voxel_size));
+  grid.lattice = Lattice::near(leaves.crown.low, grid.voxel_size);
+  return grid;
 }
 
 Lattice hash_cells(const LeafSet& leaves, double radius_max) {

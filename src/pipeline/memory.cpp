@@ -69,12 +69,12 @@ double dense_samples(const Box& bounds, double radius_max, double h) {
 }
 
 /// Samples that would be evaluated on the lattice of `kernels`.
-double evaluated_samples(const KernelSet& kernels, const Report& report,
+double evaluated_samples(const KernelSet& kernels, const FieldOptions& options,
                          std::span<const double> thresholds) {
   double bricks = 0;
-  BandOptions options{.thresholds = {}, .falloff = report.options.falloff};
-  if (!report.options.dense) options.thresholds.assign(thresholds.begin(), thresholds.end());
-  find_band(kernels, options,
+  BandOptions band{.thresholds = {}, .falloff = options.kernels.density.falloff};
+  if (!options.dense) band.thresholds.assign(thresholds.begin(), thresholds.end());
+  find_band(kernels, band,
             [&](const BrickList& list, double) { bricks += static_cast<double>(list.size()); });
   return bricks * kBrickSamples;
 }
@@ -98,19 +98,19 @@ std::uint64_t peak_memory() {
 }
 
 FieldMemory::FieldMemory(std::span<const Kernel> kernels, std::shared_ptr<const SpatialHash> hash,
-                         const Box& bounds, const Report& report,
+                         const Box& bounds, const Grid& grid, const FieldOptions& options,
                          std::span<const double> thresholds, std::uint64_t available)
-    : resolution_(report.resolution),
-      power_(report.options.dense ? kDensePower : kBandPower),
-      needed_(kBytesPerVoxel * dense_samples(bounds, report.radius_max_model, report.voxel_size)),
+    : resolution_(grid.resolution),
+      power_(options.dense ? kDensePower : kBandPower),
+      needed_(kBytesPerVoxel * dense_samples(bounds, grid.radius_max, options.voxel_size)),
       available_(static_cast<double>(available)) {
   if (fits()) return;
-  const double finer = std::max(1.0, report.resolution / kCoarseResolution);
+  const double finer = std::max(1.0, grid.resolution / kCoarseResolution);
   const KernelSet coarse(kernels, std::move(hash),
-                         Lattice::near(bounds.low, report.voxel_size * finer),
-                         report.options.falloff);
+                         Lattice::near(bounds.low, options.voxel_size * finer),
+                         options.kernels.density.falloff);
   needed_ =
-      kBytesPerVoxel * evaluated_samples(coarse, report, thresholds) * std::pow(finer, power_);
+      kBytesPerVoxel * evaluated_samples(coarse, options, thresholds) * std::pow(finer, power_);
 }
 
 void FieldMemory::check() const {

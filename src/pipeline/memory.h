@@ -6,8 +6,8 @@
 #include <span>
 
 #include "density/spatial_hash.h"
-#include "leafhull/options.h"
 #include "leafhull/shape.h"
+#include "pipeline/stage_options.h"
 
 namespace leafhull {
 
@@ -25,8 +25,8 @@ std::uint64_t peak_memory();
 class FieldMemory {
  public:
   FieldMemory(std::span<const Kernel> kernels, std::shared_ptr<const SpatialHash> hash,
-              const Box& bounds, const Report& report, std::span<const double> thresholds,
-              std::uint64_t available);
+              const Box& bounds, const Grid& grid, const FieldOptions& options,
+              std::span<const double> thresholds, std::uint64_t available);
 
   bool fits() const { return needed_ <= available_; }
 

@@ -7,50 +7,57 @@
 #include <vector>
 
 #include "leafhull/error.h"
+#include "pipeline/describe.h"
 #include "pipeline/finish_mesh.h"
-#include "pipeline/grid.h"
-#include "pipeline/stages.h"
+#include "pipeline/measure.h"
+#include "pipeline/sliders.h"
 #include "pipeline/thread_limit.h"
 
 namespace leafhull {
 namespace {
 
-/// An entry of the series under way.
+/// An entry of the series.
 struct Entry {
   std::size_t index;  ///< into the series' options
-  Report report;
+  Options options;    ///< resolved
+  Grid grid;
+  FieldOptions field;
 };
 
 /// Where R_max or T is still to be found, no other is known to share a field.
-bool is_alone(const Entry& entry) {
-  return entry.report.options.erosion || entry.report.options.dilation;
-}
+bool is_alone(const Options& options) { return options.erosion || options.dilation; }
 
 /// The series in groups that can share a field, so ordered that the next shares the most with the
 /// last.
 std::vector<std::vector<Entry>> groups_of(const LeafSet& leaves, std::span<const Options> series) {
-  std::vector<std::pair<FieldKey, Entry>> entries;
+  std::vector<Entry> entries;
   for (std::size_t i = 0; i < series.size(); ++i) {
-    Report report;
-    report.options = resolve(series[i]);
-    set_grid(leaves, report);
-    entries.emplace_back(field_key(report), Entry{i, report});
+    const Options options = resolve(series[i]);
+    const Grid grid = grid_of(leaves, options);
+    entries.push_back({i, options, grid, field_options(options, grid)});
   }
-  std::stable_sort(entries.begin(), entries.end(),
-                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::ranges::stable_sort(entries,
+                           [](const Entry& a, const Entry& b) { return a.field < b.field; });
   std::vector<std::vector<Entry>> groups;
   for (std::size_t i = 0; i < entries.size(); ++i) {
-    const bool is_new = i == 0 || is_alone(entries[i].second) || is_alone(groups.back().front()) ||
-                        entries[i].first != entries[i - 1].first;
+    const bool is_new = i == 0 || is_alone(entries[i].options) ||
+                        is_alone(groups.back().front().options) ||
+                        entries[i].field != entries[i - 1].field;
     if (is_new) groups.emplace_back();
-    groups.back().push_back(std::move(entries[i].second));
+    groups.back().push_back(entries[i]);
   }
   return groups;
 }
 
-std::vector<double> thresholds_of(std::span<const Entry> group) {
+/// An entry under way.
+struct PreparedEntry {
+  std::size_t index;
+  Prepared prepared;
+};
+
+std::vector<double> thresholds_of(std::span<const PreparedEntry> group) {
   std::vector<double> thresholds;
-  for (const Entry& entry : group) thresholds.push_back(entry.report.threshold);
+  for (const PreparedEntry& entry : group) thresholds.push_back(entry.prepared.threshold);
   thresholds.erase(std::unique(thresholds.begin(), thresholds.end()), thresholds.end());
   return thresholds;
 }
@@ -60,64 +67,68 @@ class Series {
  public:
   Series(const LeafSet& leaves, Device& device, const SeriesVisitor& visit,
          const Progress& progress)
-      : watch_(progress), stages_(leaves, device, watch_), visit_(visit) {}
+      : watch_(progress), run_{leaves, device, watch_}, stages_(run_), visit_(visit) {}
 
   /// False where the visitor ends the series, as below.
-  bool extract(std::vector<Entry>& group) {
-    std::vector<Entry> prepared;
-    for (Entry& entry : group) {
-      const std::string failure = failure_of([&] { stages_.prepare(entry.report); });
-      if (failure.empty()) {
-        prepared.push_back(std::move(entry));
-      } else if (!fail({&entry, 1}, failure)) {
-        return false;
-      }
+  bool extract(std::span<const Entry> group) {
+    if (is_alone(group.front().options)) return extract_alone(group.front());
+    std::vector<PreparedEntry> prepared;
+    for (const Entry& entry : group) {
+      const std::string failure = failure_of([&] {
+        prepared.push_back({entry.index, stages_.prepare(entry.options, 0)});
+      });
+      if (!failure.empty() && !fail(entry.index, entry.options, entry.grid, failure)) return false;
     }
-    std::stable_sort(prepared.begin(), prepared.end(), [](const Entry& a, const Entry& b) {
-      return a.report.threshold < b.report.threshold;
-    });
+    std::ranges::stable_sort(prepared, {},
+                             [](const PreparedEntry& entry) { return entry.prepared.threshold; });
     return prepared.empty() || extract_at(prepared);
   }
 
  private:
   /// Entries ascending by T; where the field of all does not fit in memory, halves share one.
-  bool extract_at(std::span<Entry> group) {
-    if (is_alone(group.front())) return extract_alone(group.front());
-    const Report& first = group.front().report;
+  bool extract_at(std::span<const PreparedEntry> group) {
+    const Prepared& first = group.front().prepared;
     const std::vector<double> thresholds = thresholds_of(group);
-    if (thresholds.size() > 1 && !stages_.memory(first, thresholds).fits()) {
+    if (thresholds.size() > 1 && !field_memory(run_, first, thresholds).fits()) {
       const std::size_t half = group.size() / 2;
       return extract_at(group.first(half)) && extract_at(group.subspan(half));
     }
-    const std::string failure = failure_of([&] { stages_.sample(first, thresholds); });
-    if (!failure.empty()) return fail(group, failure);
-    return std::all_of(group.begin(), group.end(),
-                       [&](Entry& entry) { return extract(entry, stages_.field(entry.report)); });
+    Sampled sampled;
+    const std::string failure = failure_of([&] { sampled = sample(run_, first, thresholds); });
+    return std::ranges::all_of(group, [&](const auto& entry) {
+      const auto& [index, prepared] = entry;
+      if (!failure.empty()) return fail(index, prepared.options, prepared.grid, failure);
+      SampledSurface surface{{without_hollows(run_, prepared, sampled.field.at(prepared.threshold)),
+                              sampled.pairs, sampled.lists, sampled.density},
+                             {}};
+      surface.pieces = polygonise(run_, surface.sampled.field, prepared.options, Mesher::bricks);
+      return finish(index, prepared, std::move(surface));
+    });
   }
 
-  bool extract_alone(Entry& entry) {
-    Stages::Surface surface;
-    const std::string failure =
-        failure_of([&] { surface = stages_.surface(entry.report, Mesher::bricks); });
-    if (!failure.empty()) return fail({&entry, 1}, failure);
-    return finish(entry, surface.field, surface.polygons);
+  bool extract_alone(const Entry& entry) {
+    Sliders sliders(run_, stages_, entry.options);
+    Prepared prepared;
+    SampledSurface surface;
+    const std::string failure = failure_of([&] {
+      prepared = sliders.prepare();
+      surface = sliders.surface(prepared, Mesher::bricks);
+    });
+    if (!failure.empty()) return fail(entry.index, entry.options, entry.grid, failure);
+    return finish(entry.index, prepared, std::move(surface));
   }
 
-  bool extract(Entry& entry, const Field& field) {
-    return finish(entry, field, stages_.polygonise(field, Mesher::bricks, entry.report));
-  }
-
-  bool finish(Entry& entry, const Field& field, const Polygons& polygons) {
-    Report& report = entry.report;
+  bool finish(std::size_t index, const Prepared& prepared, SampledSurface surface) {
+    auto& [sampled, pieces] = surface;
     SeriesEntry result;
-    result.mesh = lattice_mesh(polygons, field.lattice());
-    result.mesh.colour = entry.report.leaf_colour;
-    report.counts.mesh_vertices = result.mesh.positions.size();
-    report.counts.mesh_triangles = result.mesh.triangles.size();
-    stages_.measure(field, report);
-    report.seconds = watch_.finish();
-    result.report = std::move(report);
-    return visit_(entry.index, std::move(result));
+    result.report = describe(run_, prepared);
+    describe_pieces(pieces, result.report);
+    result.mesh = lattice_mesh(std::move(pieces.polygons), sampled.field.lattice());
+    result.mesh.colour = run_.leaves.colour;
+    result.report.metrics = measure(run_, stages_, prepared, sampled.field, pieces.dropped_cells);
+    describe_mesh(result.mesh, sampled, result.report);
+    result.report.seconds = watch_.finish();
+    return visit_(index, std::move(result));
   }
 
   /// What kept `work` from its end: options that do not suit the tree.
@@ -132,14 +143,15 @@ class Series {
     }
   }
 
-  bool fail(std::span<Entry> group, const std::string& failure) {
-    return std::all_of(group.begin(), group.end(), [&](Entry& entry) {
-      entry.report.seconds = watch_.finish();
-      return visit_(entry.index, {std::move(entry.report), {}, failure});
-    });
+  bool fail(std::size_t index, const Options& options, const Grid& grid,
+            const std::string& failure) {
+    Report report = describe(options, grid);
+    report.seconds = watch_.finish();
+    return visit_(index, {std::move(report), {}, failure});
   }
 
   Stopwatch watch_;
+  Run run_;
   Stages stages_;
   const SeriesVisitor& visit_;
 };
@@ -154,7 +166,7 @@ void extract_series(const LeafSet& leaves, std::span<const Options> options, Dev
                     const SeriesVisitor& visit, const Progress& progress) {
   const ThreadLimit limit(device);
   Series series(leaves, device, visit, progress);
-  for (std::vector<Entry>& group : groups_of(leaves, options)) {
+  for (const std::vector<Entry>& group : groups_of(leaves, options)) {
     if (!series.extract(group)) return;
   }
 }

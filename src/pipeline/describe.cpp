@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pipeline/describe.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <string>
+
+#include "leafhull/error.h"
+
+namespace leafhull {
+namespace {
+
+/// A coverage is missed by more than this where many places have one density.
+constexpr double kCoverageMissed = 0.025;
+
+void warn_of_points(const LeafSet& leaves, const Prepared& prepared, Report& report) {
+  const Options& options = prepared.options;
+  const std::vector<float>& there = *prepared.there;
+  const std::vector<bool>& in_solid = prepared.points->in_solid;
+  char text[240];
+  if (options.points == PointSource::vertices &&
+      leaves.mean_radius_major > report.radius_max_model) {
+    std::snprintf(
+        text, sizeof text,
+        "the leaves' mean radius, %.3g model units, is above R_max, %.3g: kernels at their "
+        "vertices leave their middle empty (--points area does not)",
+        leaves.mean_radius_major, report.radius_max_model);
+    report.warnings.emplace_back(text);
+  }
+  if (!options.coverage) return;
+  // N is summed in floats: what lies this near to T may come out on either side on the lattice.
+  const double above = report.threshold * (1 + 1e-5);
+  const auto surely = std::count_if(there.begin(), there.end(),
+                                    [&](float n) { return static_cast<double>(n) > above; });
+  const double low = static_cast<double>(surely) / static_cast<double>(there.size());
+  if (std::max(report.covered - *options.coverage, *options.coverage - low) <= kCoverageMissed) {
+    return;
+  }
+  const auto in_solids = std::count(in_solid.begin(), in_solid.end(), true);
+  if (2 * in_solids > std::ssize(in_solid)) return;  // filled out
+  if (options.points == PointSource::area) {
+    std::snprintf(
+        text, sizeof text,
+        "a coverage of %.3g cannot be had: most leaves are sheets of one density; T = %.3g, "
+        "well below it, takes in %.0f%% of the leaf area",
+        *options.coverage, report.threshold, 100 * report.covered);
+  } else {
+    std::snprintf(text, sizeof text,
+                  "a coverage of %.3g cannot be had: many leaf vertices have the density %.4g, and "
+                  "between %.0f%% and %.0f%% of all lie inside (--points area avoids that)",
+                  *options.coverage, report.threshold, 100 * low, 100 * report.covered);
+  }
+  report.warnings.emplace_back(text);
+}
+
+/// More than these is no mass but crumbs.
+constexpr std::uint64_t kManyPieces = 50;
+
+void warn_of_pieces(std::uint64_t pieces, Report& report) {
+  if (pieces <= kManyPieces) return;
+  report.warnings.push_back("the shape falls into " + std::to_string(pieces) +
+                            " pieces: raise --radius-max or --coverage to join them, or "
+                            "--min-component to drop the small ones");
+}
+
+}  // namespace
+
+std::uint64_t off_site(const Prepared& prepared) {
+  return static_cast<std::uint64_t>(std::ranges::count_if(
+      *prepared.there, [&](float n) { return static_cast<double>(n) < prepared.threshold; }));
+}
+
+Report describe(const Options& resolved, const Grid& grid) {
+  Report report;
+  report.options = resolved;
+  report.radius_max_model = grid.radius_max;
+  report.resolution = grid.resolution;
+  report.voxel_size = grid.voxel_size;
+  return report;
+}
+
+Report describe(const Run& run, const Prepared& prepared) {
+  Report report = describe(prepared.options, prepared.grid);
+  const LeafSet& leaves = run.leaves;
+  const DeviceInfo& device = run.device.info();
+  report.device = device.name + " (" + device.platform + ", " + device.variant + ")";
+  report.warnings = leaves.warnings;
+  report.density = prepared.statistics;
+  report.threshold = prepared.threshold;
+  report.leaf_area = leaves.area;
+  report.leaf_colour = leaves.colour;
+  report.counts.leaves = leaves.leaf_count;
+  report.counts.leaf_vertices = leaves.vertices.size();
+  report.counts.leaf_points = prepared.points->points.size();
+  report.counts.dropped_leaves = leaves.dropped_leaves;
+  report.counts.split_components = leaves.split_components;
+  report.metrics.off_site_exact = off_site(prepared);
+  report.covered = 1 - static_cast<double>(report.metrics.off_site_exact) /
+                           static_cast<double>(prepared.there->size());
+  warn_of_points(leaves, prepared, report);
+  return report;
+}
+
+void describe_pieces(const Pieces& pieces, Report& report) {
+  report.counts.components = pieces.kept;
+  report.counts.dropped_components = pieces.dropped;
+  warn_of_pieces(pieces.kept, report);
+}
+
+void describe_mesh(const Mesh& mesh, const Sampled& sampled, Report& report) {
+  report.counts.mesh_vertices = mesh.positions.size();
+  report.counts.mesh_triangles = mesh.triangles.size();
+  report.counts.evaluated_voxels = sampled.field.sample_count();
+  report.counts.evaluated_pairs = sampled.pairs;
+}
+
+void refuse_empty(const Prepared& prepared, const Field& field) {
+  const Options& options = prepared.options;
+  const float at_leaves = std::ranges::max(*prepared.there);
+  char text[200];
+  std::snprintf(text, sizeof text,
+                "the surface is empty: no sample reaches the threshold %.4g, the density being at "
+                "most %.4g at the leaves and between",
+                field.threshold(), static_cast<double>(std::max(field.highest(), at_leaves)));
+  const char* lower = options.threshold           ? "Lower --threshold"
+                      : options.threshold_percent ? "Lower --threshold-percent"
+                      : options.erosion           ? "Lower --erosion"
+                                                  : "Give --threshold 50% in place of --coverage";
+  throw Error(ErrorCode::empty, text,
+              std::string(lower) + ", enlarge --radius-max, or take a finer --resolution.");
+}
+
+}  // namespace leafhull

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pipeline/sliders.h"
+
+#include <cmath>
+#include <cstdio>
+#include <exception>
+#include <optional>
+#include <utility>
+
+#include "leafhull/error.h"
+#include "pipeline/find_radius.h"
+#include "pipeline/measure.h"
+#include "pipeline/threshold.h"
+
+namespace leafhull {
+namespace {
+
+[[noreturn]] void refuse_erosion(double found, double asked) {
+  char text[200];
+  const bool too_much = found > asked;
+  std::snprintf(text, sizeof text, "an erosion of %.3g cannot be had: %s %.3g outside", asked,
+                too_much ? "pieces too small to be kept leave"
+                         : "hollows that are filled hold leaves, which leaves",
+                found);
+  throw Error(ErrorCode::usage, text,
+              too_much
+                  ? "Give that, a larger --dilation or --radius-max, or a smaller --min-component."
+                  : "Give that, or --hollows keep.");
+}
+
+[[noreturn]] void refuse_dilation(double found, const Options& options) {
+  char text[200];
+  std::snprintf(
+      text, sizeof text,
+      "a dilation of %.3g cannot be had on this tree: it goes %s to %.3g, with R_max %.3g "
+      "crown units",
+      *options.dilation, found < *options.dilation ? "up" : "down", found, *options.radius_max);
+  throw Error(ErrorCode::usage, text, "Give that, or another --erosion.");
+}
+
+}  // namespace
+
+Sliders::Sliders(const Run& run, Stages& stages, Options resolved)
+    : run_(run),
+      stages_(stages),
+      options_(std::move(resolved)),
+      finds_radius_(options_.dilation && !options_.radius_max),
+      below_(options_.erosion.value_or(0)) {}
+
+Prepared Sliders::prepare() {
+  Prepared prepared = solve();
+  if (!options_.erosion) check_dilation(prepared);
+  return prepared;
+}
+
+void Sliders::check_dilation(const Prepared& prepared) {
+  if (!options_.dilation) return;
+  const double found = stages_.dilation(prepared);
+  if (std::abs(found - *options_.dilation) > kSliderError) refuse_dilation(found, options_);
+}
+
+/// With R_max such that the dilation is as asked for, T leaving out `below_`.
+Prepared Sliders::solve() {
+  if (!finds_radius_) return stages_.prepare(options_, below_);
+  const double crown_unit = run_.leaves.crown.longest_side() / kCrownUnits;
+  const double start = radius_max_in_model_units(run_.leaves, options_) / crown_unit;
+  std::exception_ptr refusal;
+  std::optional<Prepared> last;
+  const auto dilation_at = [&](double radius) -> std::optional<double> {
+    options_.radius_max = radius;
+    last.reset();
+    try {
+      last = stages_.prepare(options_, below_);
+    } catch (const Error& error) {  // no T has the erosion with this radius
+      if (error.code() != ErrorCode::usage) throw;
+      refusal = std::current_exception();
+      return {};
+    }
+    return stages_.dilation(*last);
+  };
+  const std::optional<RadiusFound> found = find_radius(*options_.dilation, start, dilation_at);
+  if (!found) std::rethrow_exception(refusal);
+  // What is the nearest may be moved by an erosion yet.
+  if (!found->reached) finds_radius_ = false;
+  if (options_.radius_max != found->radius) (void)dilation_at(found->radius);
+  return std::move(last.value());
+}
+
+SampledSurface Sliders::surface(Prepared& prepared, Mesher mesher, DensityFunction::Lists lists) {
+  constexpr int kMostRounds = 8;
+  for (int round = 1;; ++round) {
+    SampledSurface surface{sample(run_, prepared, {prepared.threshold}, lists), {}};
+    surface.sampled.field = without_hollows(run_, prepared, std::move(surface.sampled.field));
+    surface.pieces = polygonise(run_, surface.sampled.field, prepared.options, mesher);
+    if (is_eroded(prepared, surface, round == kMostRounds)) {
+      if (options_.erosion) check_dilation(prepared);
+      return surface;
+    }
+    prepared = solve();
+  }
+}
+
+/// Whether a surface has the erosion that is asked for. If not, sets what T is to leave out next:
+/// beside that there are pieces that are dropped, and what the lattice does not see.
+bool Sliders::is_eroded(const Prepared& prepared, const SampledSurface& surface, bool is_last) {
+  constexpr double kLeast = 1e-3;  // of the leaves, below T
+  if (!options_.erosion) return true;
+  const double asked = *options_.erosion;
+  const double missed =
+      erosion_of(prepared, surface.sampled.field, surface.pieces.dropped_cells) - asked;
+  if (std::abs(missed) <= 0.8 * kSliderError) return true;
+  (missed > 0 ? high_ : low_) = below_;
+  if (is_last || high_ - low_ < kLeast) {
+    if (std::abs(missed) > kSliderError) refuse_erosion(asked + missed, asked);
+    return true;
+  }
+  const double next = below_ - missed;
+  below_ = low_ < next && next < high_ ? next : (low_ + high_) / 2;
+  return false;
+}
+
+}  // namespace leafhull

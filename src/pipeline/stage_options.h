@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <compare>
+
+#include "density/control.h"
+#include "leafhull/options.h"
+#include "pipeline/grid.h"
+
+// What each stage of Figure 8 depends on beside the tree. A stage is given this and nothing else of
+// the options, so what it does not name cannot change its result: a result is kept by it.
+
+namespace leafhull {
+
+/// Of the leaf points.
+struct PointsOptions {
+  PointSource source = PointSource::area;
+  double spacing = 0;     ///< of parts of area, model units; 0: vertices
+  double radius_max = 0;  ///< R_max, model units, of parts of area; 0: vertices
+  auto operator<=>(const PointsOptions&) const = default;
+};
+
+/// Of the spatial hash.
+struct HashOptions {
+  PointsOptions points;
+  double radius_max = 0;  ///< model units
+  auto operator<=>(const HashOptions&) const = default;
+};
+
+/// Of N_iso.
+struct DensityOptions {
+  HashOptions hash;
+  int falloff = 2;  ///< k
+  DensitySource source = DensitySource::exact;
+  double voxel_size = 0;  ///< model units, of a density from the lattice; 0: summed at the points
+  auto operator<=>(const DensityOptions&) const = default;
+};
+
+/// Of the kernels.
+struct KernelsOptions {
+  DensityOptions density;
+  ControlOptions control;
+  auto operator<=>(const KernelsOptions&) const = default;
+};
+
+/// Of the sampled field, beside the thresholds.
+struct FieldOptions {
+  KernelsOptions kernels;
+  double voxel_size = 0;  ///< h, model units
+  int margin = 1;         ///< voxels by which blocks grow before they are decided
+  bool dense = false;
+  auto operator<=>(const FieldOptions&) const = default;
+};
+
+/// Those of all stages, one in the other.
+FieldOptions field_options(const Options& resolved, const Grid& grid);
+
+}  // namespace leafhull
