@@ -57,6 +57,21 @@ class Device {
   std::unique_ptr<Engine> engine_;
 };
 
+/// Bounds the threads of the host, in reading and finding leaves too, for as long as it lives. Of
+/// several bounds the least counts; what takes a Device is bounded by the device's as well.
+class ThreadLimit {
+ public:
+  /// @param threads 0: no bound.
+  explicit ThreadLimit(int threads);
+  ~ThreadLimit();
+  ThreadLimit(const ThreadLimit&) = delete;
+  ThreadLimit& operator=(const ThreadLimit&) = delete;
+
+ private:
+  struct Control;
+  std::unique_ptr<Control> control_;
+};
+
 /// Opens a device and builds its kernels for a falloff on a thread of its own, so that the tree can
 /// be read meanwhile; with `threads` 1 both wait for get(). The build takes PoCL most of a second
 /// the first time, and less than a tenth from its cache.

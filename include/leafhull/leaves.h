@@ -62,6 +62,7 @@ struct LeafPoint {
 
 /// The leaves as visible area; only leafhull's own stages look inside.
 struct LeafSheets;
+struct WeldedPrimitives;
 struct LeafChoice;
 
 struct LeafSet {
@@ -121,10 +122,8 @@ struct LeafChoice {
   std::vector<std::vector<bool>> triangles;  ///< by primitive, those that are leaves; empty: all
   std::vector<bool> cut_out;   ///< by material: the alpha of its image counts though it is opaque
   std::vector<bool> left_out;  ///< by instance: a coarser level of what is there already
-  /// By primitive, which of its distinct positions each vertex has, for find_leaves() to take up;
-  /// or none.
-  std::vector<std::vector<std::uint32_t>> welded;
-  std::vector<LeafCandidate> candidates;  ///< the likeliest first
+  std::shared_ptr<const WeldedPrimitives> welded;  ///< what find_leaves() can take up; or none
+  std::vector<LeafCandidate> candidates;           ///< the likeliest first
   /// The leaves' mean linear colour by visible area: texture times factor times vertex colour. None
   /// where the file tells no colour.
   std::optional<Vec3f> colour;

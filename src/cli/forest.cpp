@@ -246,7 +246,9 @@ void make_forest(const Arguments& arguments, Ranks& ranks) {
   ForestWords words(ranks, arguments.quiet, how_to_go_on(options));
 
   const Options shape = resolve(arguments.options);
-  std::future<Device> opening = open_device(device_of(arguments, ranks), shape.falloff);
+  const DeviceOptions shared = device_of(arguments, ranks);
+  const ThreadLimit limit(shared.threads);
+  std::future<Device> opening = open_device(shared, shape.falloff);
   console.progress("read", 0);
   const Scene scene = read_scene(arguments.tree, shape.leaf_options(), shape.read_options());
   for (const std::string& warning : scene.warnings) console.warn(warning);

@@ -116,6 +116,7 @@ void run(const std::vector<std::string>& command) {
                 "Give " + std::string(verb->operand_help) + ": leafhull " +
                     std::string(verb->name) + " " + std::string(verb->operand_example) + ".");
   }
+  const ThreadLimit limit(arguments.device.threads);
   verb->run(arguments);
 }
 

@@ -91,7 +91,7 @@ class CandidateFinder {
     group(levels);
     for (const auto& [primitive, numbers] : by_primitive_) box_of(primitive, numbers);
     found_.part_of.resize(tree_.primitives.size());
-    found_.welded.resize(tree_.primitives.size());
+    found_.welded.of.resize(tree_.primitives.size());
     look_at_all();
     drop_common_names();
     for (std::size_t i = 0; i < found_.list.size(); ++i) weigh_names(signs_[i], found_.list[i]);
@@ -206,7 +206,7 @@ class CandidateFinder {
       }
     }
     found_.part_of[primitive] = std::move(looks.part_of);
-    found_.welded[primitive] = std::move(looks.welded);
+    found_.welded.of[primitive] = std::move(looks.welded);
   }
 
   Candidate describe(const Group& group, const Primitive& primitive, const Appearance& look,

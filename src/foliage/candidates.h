@@ -10,6 +10,7 @@
 #include "foliage/levels.h"
 #include "foliage/names.h"
 #include "leafhull/leaves.h"
+#include "leaves/components.h"
 
 namespace leafhull {
 
@@ -29,7 +30,7 @@ struct Candidate {
 struct Candidates {
   std::vector<Candidate> list;                     ///< in file order
   std::vector<std::vector<std::uint8_t>> part_of;  ///< by primitive and triangle; empty: one part
-  std::vector<std::vector<std::uint32_t>> welded;  ///< as LeafChoice::welded
+  WeldedPrimitives welded;
 };
 
 /// Of the instances that `levels` does not leave out. @param looked_at by instance, as the options

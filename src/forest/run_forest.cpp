@@ -26,7 +26,6 @@
 #include "leafhull/ranks.h"
 #include "pipeline/memory.h"
 #include "pipeline/stopwatch.h"
-#include "pipeline/thread_limit.h"
 
 namespace leafhull {
 namespace {
@@ -446,7 +445,7 @@ ForestSummary run_forest(const Scene& scene, const ForestOptions& options, Devic
                          const ForestProgressVisitor& progress) {
   check(options);
   check_output_folder(folder);
-  const ThreadLimit limit(device);
+  const ThreadLimit limit(device.threads());
   const bool is_new = !std::filesystem::exists(folder);
   try {
     if (options.merge == Merge::none) {

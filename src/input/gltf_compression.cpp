@@ -69,10 +69,11 @@ int decode_meshopt(const MeshoptView& view, ByteSpan from, Bytes& to) {
     return meshopt_decodeIndexSequence(to.data(), count, stride, from.data(), from.size());
   }
   const int error = meshopt_decodeVertexBuffer(to.data(), count, stride, from.data(), from.size());
+  if (error != 0) return error;
   if (view.filter == "OCTAHEDRAL") meshopt_decodeFilterOct(to.data(), count, stride);
   if (view.filter == "QUATERNION") meshopt_decodeFilterQuat(to.data(), count, stride);
   if (view.filter == "EXPONENTIAL") meshopt_decodeFilterExp(to.data(), count, stride);
-  return error;
+  return 0;
 }
 
 // Draco has more types than glTF, and takes any byte for a bool.

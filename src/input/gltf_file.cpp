@@ -161,6 +161,12 @@ Companions::Found find_uri(const Companions& companions, const std::string& uri)
   return companions.find(percent_decoded(uri.substr(0, end)));
 }
 
+[[noreturn]] void fail_to_read(const GltfFile& file, const std::string& uri,
+                               const std::string& place, const FileError& error) {
+  file.fail(place, in_quotes(percent_decoded(uri)) + " cannot be read: " + error.what(),
+            "Put the file beside the tree's, or export the tree as one .glb file.");
+}
+
 }  // namespace
 
 GltfFile open_gltf(ByteSpan bytes, const std::string& name, const Companions& companions) {
@@ -179,13 +185,16 @@ GltfFile open_gltf(ByteSpan bytes, const std::string& name, const Companions& co
   return file;
 }
 
-Bytes load_uri(GltfFile& file, const std::string& uri, const std::string& place) {
+std::function<Bytes()> uri_loader(GltfFile& file, const std::string& uri,
+                                  const std::string& place) {
   if (uri.starts_with("data:")) {
-    std::optional<Bytes> bytes = decode_data(uri);
-    if (!bytes) {
-      file.fail(place, "the data URI " + in_quotes(uri.substr(0, 40)) + " cannot be decoded");
-    }
-    return std::move(*bytes);
+    return [&uri] {
+      std::optional<Bytes> bytes = decode_data(uri);
+      if (!bytes) {
+        throw FileError("the data URI " + in_quotes(uri.substr(0, 40)) + " cannot be decoded");
+      }
+      return std::move(*bytes);
+    };
   }
   const bool is_remote = uri.find("://") != std::string::npos && !uri.starts_with("file:");
   if (!file.companions.any() || is_remote) {
@@ -194,12 +203,20 @@ Bytes load_uri(GltfFile& file, const std::string& uri, const std::string& place)
   }
   try {
     const Companions::Found found = find_uri(file.companions, uri);
-    Bytes bytes = read_file(found.path);
     if (!found.note.empty()) file.notes.push_back(place + ": " + found.note);
-    return bytes;
+    return [path = found.path] { return read_file(path); };
   } catch (const FileError& error) {
-    file.fail(place, in_quotes(percent_decoded(uri)) + " cannot be read: " + error.what(),
-              "Put the file beside the tree's, or export the tree as one .glb file.");
+    fail_to_read(file, uri, place, error);
+  }
+}
+
+Bytes load_uri(GltfFile& file, const std::string& uri, const std::string& place) {
+  const std::function<Bytes()> load = uri_loader(file, uri, place);
+  try {
+    return load();
+  } catch (const FileError& error) {
+    if (uri.starts_with("data:")) file.fail(place, error.what());
+    fail_to_read(file, uri, place, error);
   }
 }
 

@@ -4,6 +4,7 @@
 #include <tiny_gltf.h>
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -47,6 +48,10 @@ GltfFile open_gltf(ByteSpan bytes, const std::string& name, const Companions& co
 /// The bytes that a URI of the document stands for.
 /// @throws Error input at `place`.
 Bytes load_uri(GltfFile& file, const std::string& uri, const std::string& place);
+
+/// The same for later, on any thread; a file is looked for now. `uri` is the document's own.
+/// @throws Error as above; the function itself FileError.
+std::function<Bytes()> uri_loader(GltfFile& file, const std::string& uri, const std::string& place);
 
 /// "accessors[3]"
 inline std::string place_of(std::string_view list, std::size_t index) {

@@ -129,9 +129,10 @@ int MaterialReader::image_of(int index, Material& material, const std::string& p
 }
 
 int MaterialReader::image_number(int index, const std::string& texture) {
-  const std::string place = index < 0 ? texture : place_of("images", index);
+  const std::string name = index < 0 ? "none" : place_of("images", index);
+  const std::string& place = index < 0 ? texture : name;
   return images_.number_of(
-      {place, {}}, [&](const std::string&) { return load_image(index, place); }, tree_);
+      {name, {}}, [&](const std::string&) { return load_image(index, place); }, tree_);
 }
 
 ImageSource MaterialReader::load_image(int index, const std::string& place) {
@@ -148,7 +149,7 @@ ImageSource MaterialReader::load_image(int index, const std::string& place) {
     } else if (source.uri.empty()) {
       image.fault = "it has neither a uri nor a bufferView";
     } else {
-      image.owned = load_uri(file_, source.uri, place);
+      image.load = uri_loader(file_, source.uri, place);
     }
   } catch (const Error& error) {
     image.fault = error.what();

@@ -9,14 +9,15 @@
 namespace leafhull {
 namespace {
 
-/// A few bytes can hold 256 MiB of pixels: no more are at hand at once than this beyond the limit.
+/// So many are at hand beyond those that are kept: their files, and up to 256 MiB of pixels, which
+/// decoding may hold three times.
 constexpr std::size_t kAtOnce = 4;
-constexpr std::size_t kMostBytes = std::size_t{1} << 31;
 
 }  // namespace
 
 struct ImageTable::Decoded {
   int number = 0;
+  std::string place{};
   Image image{};
   std::vector<std::string> faults{};
 };
@@ -25,7 +26,9 @@ ImageSource companion_image(const Companions& companions, const std::string& nam
                             std::vector<std::string>& warnings) {
   ImageSource source{.name = name, .place = in_quotes(name)};
   try {
-    source.owned = read_companion(companions, name, warnings);
+    const Companions::Found found = companions.find(name);
+    if (!found.note.empty()) warnings.push_back(found.note);
+    source.load = [file = found.path] { return read_file(file); };
   } catch (const FileError& error) {
     source.fault = error.what();
   }
@@ -51,7 +54,15 @@ ImageTable::Decoded ImageTable::decode(const Entry& entry) {
   const auto read = [&](const ImageSource& source) {
     std::string fault = source.fault;
     Image image;
-    if (fault.empty()) image = decode_image(source.bytes(), source.name, fault);
+    try {
+      const Bytes owned = source.load ? source.load() : Bytes();
+      if (fault.empty()) {
+        image = decode_image(source.load ? ByteSpan(owned) : source.lent, source.name, fault);
+      }
+    } catch (const FileError& error) {
+      fault = error.what();
+    }
+    if (decoded.place.empty()) decoded.place = source.place;
     if (!fault.empty()) decoded.faults.push_back(source.place + ": texture not read: " + fault);
     return image;
   };
@@ -72,12 +83,12 @@ void ImageTable::decode(TreeModel& tree) const {
   const auto keep = [&](Decoded decoded) {
     Image& image = tree.images[static_cast<std::size_t>(decoded.number)];
     bytes += decoded.image.rgba.size();
-    if (bytes > kMostBytes) {
+    if (bytes > most_bytes_) {
       bytes -= decoded.image.rgba.size();
       decoded.image = {};
-      decoded.faults.push_back(in_quotes(image.name) +
-                               ": texture not read: the images of the file are larger than 2 GiB "
-                               "together");
+      decoded.faults.push_back(decoded.place +
+                               ": texture not read: the images of the file are "
+                               "larger than 2 GiB together");
     }
     decoded.image.name = std::move(image.name);
     image = std::move(decoded.image);

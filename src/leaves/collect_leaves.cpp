@@ -26,8 +26,11 @@ constexpr std::size_t kAtATime = 1 << 13;
 /// Takes components one after the other. Its numbers count those of all instances.
 class LeafCollector {
  public:
-  explicit LeafCollector(const LeafSource& source) : source_(source) {}
-  LeafCollector(const LeafCollector& other, tbb::split) : source_(other.source_) {}
+  /// `before`: the leaves that were found before, which do not change meanwhile.
+  LeafCollector(const LeafSource& source, const FoundLeaves& before)
+      : found{.sheets = SheetCollector(&before.sheets)}, source_(source), before_(before) {}
+  LeafCollector(const LeafCollector& other, tbb::split)
+      : LeafCollector(other.source_, other.before_) {}
   void join(LeafCollector& next) { found.append(std::move(next.found)); }
 
   void operator()(const tbb::blocked_range<std::size_t>& numbers) {
@@ -135,6 +138,7 @@ class LeafCollector {
   }
 
   const LeafSource& source_;
+  const FoundLeaves& before_;
   std::size_t instance_ = ~std::size_t{0};
   Placement placement_{kIdentity};
   LeafMesh mesh_;
@@ -143,13 +147,14 @@ class LeafCollector {
 }  // namespace
 
 void FoundLeaves::append(FoundLeaves&& next) {
-  const auto before = static_cast<std::uint32_t>(count);
-  for (LeafVertex& vertex : next.vertices) vertex.leaf += before;
-  vertices.insert(vertices.end(), next.vertices.begin(), next.vertices.end());
   if (!next.vertices.empty()) {
     bounds.include(next.bounds.low);
     bounds.include(next.bounds.high);
   }
+  const auto before = static_cast<std::uint32_t>(count);
+  for (LeafVertex& vertex : next.vertices) vertex.leaf += before;
+  vertices.insert(vertices.end(), next.vertices.begin(), next.vertices.end());
+  next.vertices = {};
   sheets.append(std::move(next.sheets));
   count += next.count;
   dropped += next.dropped;
@@ -160,7 +165,7 @@ void FoundLeaves::append(FoundLeaves&& next) {
 void collect_leaves(const LeafSource& source, FoundLeaves& found) {
   const std::size_t count = source.to_world.size() * source.components.size();
   for (std::size_t begin = 0; begin < count; begin += kAtATime) {
-    LeafCollector collector(source);
+    LeafCollector collector(source, found);
     tbb::parallel_reduce(tbb::blocked_range<std::size_t>(begin, std::min(begin + kAtATime, count)),
                          collector);
     found.append(std::move(collector.found));

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <bit>
 #include <numeric>
+#include <tuple>
 #include <utility>
 
 #include "leaves/leaf_mesh.h"
@@ -101,6 +102,15 @@ std::size_t count_of(std::span<const std::uint32_t> welded) {
   return welded.empty() ? 0 : std::ranges::max(welded) + std::size_t{1};
 }
 
+std::vector<Vec3f> distinct_positions(const Primitive& primitive,
+                                      std::span<const std::uint32_t> welded) {
+  std::vector<Vec3f> distinct(count_of(welded));
+  for (std::size_t i = 0; i < welded.size(); ++i) {
+    distinct[welded[i]] = primitive.positions[i] + Vec3f(0, 0, 0);  // -0 becomes 0
+  }
+  return distinct;
+}
+
 }  // namespace
 
 FaceGroups::FaceGroups(std::span<const Face> faces, std::span<const std::uint32_t> labels)
@@ -139,13 +149,23 @@ std::vector<std::uint32_t> weld_positions(const Primitive& primitive) {
   return welded;
 }
 
+bool is_welded(const Primitive& primitive, std::span<const std::uint32_t> welded) {
+  if (welded.size() != primitive.positions.size() || count_of(welded) > welded.size()) return false;
+  const std::vector<Vec3f> distinct = distinct_positions(primitive, welded);
+  const auto differs = [&](std::size_t i) { return distinct[welded[i]] != primitive.positions[i]; };
+  for (std::size_t i = 0; i < welded.size(); ++i) {
+    if (differs(i)) return false;
+  }
+  const auto is_not_before = [](Vec3f a, Vec3f b) {
+    return std::tie(a.x, a.y, a.z) >= std::tie(b.x, b.y, b.z);
+  };
+  return std::ranges::adjacent_find(distinct, is_not_before) == distinct.end();
+}
+
 WeldedMesh weld(const Primitive& primitive, std::span<const std::uint32_t> welded,
                 const std::vector<bool>& triangles) {
   WeldedMesh mesh;
-  mesh.positions.resize(count_of(welded));
-  for (std::size_t i = 0; i < welded.size(); ++i) {
-    mesh.positions[welded[i]] = primitive.positions[i] + Vec3f(0, 0, 0);  // -0 becomes 0
-  }
+  mesh.positions = distinct_positions(primitive, welded);
   mesh.faces.reserve(primitive.triangles.size());
   for (std::size_t t = 0; t < primitive.triangles.size(); ++t) {
     if (!triangles.empty() && !triangles[t]) continue;

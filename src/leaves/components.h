@@ -48,6 +48,14 @@ struct WeldedMesh {
 /// Which of the primitive's distinct positions each vertex has, as WeldedMesh counts them.
 std::vector<std::uint32_t> weld_positions(const Primitive& primitive);
 
+/// That of each primitive of a tree, or none.
+struct WeldedPrimitives {
+  std::vector<std::vector<std::uint32_t>> of;
+};
+
+/// Whether that is how the primitive is welded: its vertices may have moved since.
+bool is_welded(const Primitive& primitive, std::span<const std::uint32_t> welded);
+
 /// Of those triangles of the primitive, or of all where `triangles` is empty. `welded` as
 /// weld_positions() returns it.
 WeldedMesh weld(const Primitive& primitive, std::span<const std::uint32_t> welded,

@@ -80,14 +80,17 @@ std::vector<std::uint32_t> chosen_instances(std::span<const Instance> instances,
 }
 
 WeldedMesh weld_chosen(const Primitive& primitive, const LeafChoice& choice, std::size_t index) {
-  const bool is_known = index < choice.welded.size() && !choice.welded[index].empty();
-  return weld(primitive, is_known ? choice.welded[index] : weld_positions(primitive),
-              choice.triangles[index]);
+  const std::vector<bool>& triangles = choice.triangles[index];
+  if (choice.welded && index < choice.welded->of.size()) {
+    const std::vector<std::uint32_t>& welded = choice.welded->of[index];
+    if (is_welded(primitive, welded)) return weld(primitive, welded, triangles);
+  }
+  return weld(primitive, weld_positions(primitive), triangles);
 }
 
 /// The choice for those who ask how the leaves were found.
 std::shared_ptr<const LeafChoice> told(LeafChoice choice) {
-  choice.welded.clear();
+  choice.welded.reset();
   return std::make_shared<const LeafChoice>(std::move(choice));
 }
 

@@ -78,9 +78,16 @@ std::uint32_t SheetCollector::chart_of(Triangles triangles,
     for (const Vec2d p : triangle) key.insert(key.end(), {p.x, p.y});
   }
   const auto number = static_cast<std::uint32_t>(sheets_->charts.size());
-  const auto [known, is_new] = charts_.try_emplace({mask.get(), std::move(key)}, number);
-  if (!is_new) return known->second;
+  const auto [entry, is_new] = charts_.try_emplace({mask.get(), std::move(key)}, number);
+  if (!is_new) return entry->second;
+  const auto seen = known_ ? known_->charts_.find(entry->first) : charts_.end();
+  const bool is_seen = known_ && seen != known_->charts_.end();
+  sheets_->charts.push_back(is_seen ? known_->sheets_->charts[seen->second]
+                                    : chart(std::move(triangles), mask));
+  return number;
+}
 
+LeafChart SheetCollector::chart(Triangles triangles, const std::shared_ptr<AlphaMask>& mask) const {
   LeafChart chart{std::move(triangles), mask, {}, {}};
   double sum = 0;
   for (const auto& [a, b, c] : chart.triangles) {
@@ -94,8 +101,7 @@ std::uint32_t SheetCollector::chart_of(Triangles triangles,
     sum += area;
   }
   chart.centre = sum > 0 ? Vec2d{chart.centre.x / sum, chart.centre.y / sum} : Vec2d{};
-  sheets_->charts.push_back(std::move(chart));
-  return number;
+  return chart;
 }
 
 void SheetCollector::take(const LeafMesh& leaf, const LeafEllipse& ellipse,

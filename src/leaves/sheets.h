@@ -51,6 +51,9 @@ struct LeafSheets {
 /// Takes leaves one by one.
 class SheetCollector {
  public:
+  /// `known`: whose charts need not be looked at again; it does not change meanwhile.
+  explicit SheetCollector(const SheetCollector* known = nullptr) : known_(known) {}
+
   /// `first`: where the leaf's first point lies in the world; `scale` multiplies its radii; `piece`
   /// as in LeafSheet.
   void take(const LeafMesh& leaf, const LeafEllipse& ellipse, const TextureSource& texture,
@@ -74,9 +77,11 @@ class SheetCollector {
   using Charts = std::map<std::pair<const AlphaMask*, std::vector<double>>, std::uint32_t>;
 
   std::uint32_t chart_of(Triangles triangles, const std::shared_ptr<AlphaMask>& mask);
+  LeafChart chart(Triangles triangles, const std::shared_ptr<AlphaMask>& mask) const;
 
   void sort_solids();
 
+  const SheetCollector* known_;
   std::int32_t solid_ = -1;
   std::shared_ptr<LeafSheets> sheets_ = std::make_shared<LeafSheets>();
   Charts charts_;

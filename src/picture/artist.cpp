@@ -11,7 +11,6 @@
 #include "leafhull/error.h"
 #include "picture/parts.h"
 #include "pipeline/stopwatch.h"
-#include "pipeline/thread_limit.h"
 #include "render/draw_buffers.h"
 #include "render/exr.h"
 #include "render/light.h"
@@ -148,7 +147,7 @@ Picture Artist::shade(const Subject::Parts& parts, const render::Buffers& buffer
 
 Rendering Artist::draw(const Subject& subject, const PictureOptions& options,
                        const Progress& progress) {
-  const ThreadLimit limit(device_);
+  const ThreadLimit limit(device_.threads());
   const Progress untold;
   Stopwatch watch(untold);
   const Subject::Parts& parts = subject.parts();

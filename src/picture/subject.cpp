@@ -11,7 +11,6 @@
 #include "leafhull/render.h"
 #include "picture/parts.h"
 #include "pipeline/finish_mesh.h"
-#include "pipeline/thread_limit.h"
 #include "render/light.h"
 #include "surface/extent.h"
 #include "surface/polygonise.h"
@@ -126,7 +125,7 @@ const Report& Subject::report() const { return parts_->report; }
 Subject tree_subject(std::shared_ptr<const TreeModel> tree, const LeafSet& leaves,
                      const Options& options, Surfacing surfacing, Device& device,
                      const Progress& progress, const Frame& frame) {
-  const ThreadLimit limit(device);
+  const ThreadLimit limit(device.threads());
   const auto parts = std::make_shared<Parts>();
   const std::shared_ptr<const TreeModel> whole = std::move(tree);
   const Rest wood = rest_of(whole, *leaves.choice);
@@ -205,7 +204,7 @@ bool is_shape(const TreeModel& file) {
 
 Subject field_subject(const std::filesystem::path& file, std::optional<double> threshold,
                       Surfacing surfacing, Device& device, const Progress& progress) {
-  const ThreadLimit limit(device);
+  const ThreadLimit limit(device.threads());
   const auto parts = std::make_shared<Parts>();
   if (progress) progress("read", 0);
   auto [read, origin] = read_field(file, threshold);

@@ -7,7 +7,6 @@
 #include "leafhull/error.h"
 #include "pipeline/describe.h"
 #include "pipeline/sliders.h"
-#include "pipeline/thread_limit.h"
 #include "surface/brick_mesher.h"
 #include "surface/components.h"
 
@@ -33,7 +32,7 @@ struct DirectSurface::Impl {
 DirectSurface::DirectSurface(const LeafSet& leaves, const Options& options, Device& device,
                              const Progress& progress)
     : impl_(std::make_unique<Impl>()) {
-  const ThreadLimit limit(device);
+  const ThreadLimit limit(device.threads());
   Stopwatch watch(progress);
   const Run run{leaves, device, watch};
   Stages stages(run);

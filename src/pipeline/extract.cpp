@@ -5,13 +5,12 @@
 #include "pipeline/finish_mesh.h"
 #include "pipeline/measure.h"
 #include "pipeline/sliders.h"
-#include "pipeline/thread_limit.h"
 
 namespace leafhull {
 
 Shape extract(const LeafSet& leaves, const Options& asked, Device& device,
               const Progress& progress) {
-  const ThreadLimit limit(device);
+  const ThreadLimit limit(device.threads());
   Stopwatch watch(progress);
   const Run run{leaves, device, watch};
   Stages stages(run);

@@ -11,7 +11,6 @@
 #include "pipeline/finish_mesh.h"
 #include "pipeline/measure.h"
 #include "pipeline/sliders.h"
-#include "pipeline/thread_limit.h"
 
 namespace leafhull {
 namespace {
@@ -164,7 +163,7 @@ void check_series(const LeafSet& leaves, std::span<const Options> options) {
 
 void extract_series(const LeafSet& leaves, std::span<const Options> options, Device& device,
                     const SeriesVisitor& visit, const Progress& progress) {
-  const ThreadLimit limit(device);
+  const ThreadLimit limit(device.threads());
   Series series(leaves, device, visit, progress);
   for (const std::vector<Entry>& group : groups_of(leaves, options)) {
     if (!series.extract(group)) return;

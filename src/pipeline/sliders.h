@@ -28,7 +28,7 @@ class Sliders {
   /// `prepared` becomes another T, with a dilation another R_max.
   /// @throws Error usage: as sample(); no T has that erosion.
   SampledSurface surface(Prepared& prepared, Mesher mesher,
-                  DensityFunction::Lists lists = DensityFunction::Lists::forget);
+                         DensityFunction::Lists lists = DensityFunction::Lists::forget);
 
   /// prepare() sees to it, but with an erosion, which surface() may still correct.
   /// @throws Error usage: the dilation that is asked for was not found.

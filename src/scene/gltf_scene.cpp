@@ -62,6 +62,7 @@ class TreeCollector {
       choice_ = std::make_shared<LeafChoice>(choose_leaves(meshes.tree, instances_, leaves_));
       for (const std::string& warning : choice_->warnings) builder_.warn(warning);
       choice_->warnings.clear();
+      choice_->welded.reset();  // it would stay for as long as the scene
     }
     if (placed.node != node_) look_at(meshes, placed);
     if (leaf_vertices_ == 0) return;

@@ -40,6 +40,7 @@ void expect_as_alone(const SeriesEntry& entry, const Options& options) {
   EXPECT_EQ(a.threshold, b.threshold);
   EXPECT_EQ(a.voxel_size, b.voxel_size);
   EXPECT_EQ(a.density.mean, b.density.mean);
+  EXPECT_EQ(a.density.p1, b.density.p1);
   EXPECT_EQ(a.density.p2, b.density.p2);
   EXPECT_EQ(a.metrics.dilated_voxels, b.metrics.dilated_voxels);
   EXPECT_EQ(a.metrics.inside_voxels, b.metrics.inside_voxels);
@@ -79,6 +80,13 @@ TEST(Series, SaysOfEachEntryWhatAnExtractionSays) {
   add([](Options& o) { o.min_component = 0.1; });
   add([](Options& o) { o.hollows = Hollows::fill; });
   add([](Options& o) { o.preset = Preset::paper_32; });
+  add([](Options& o) { o.band_low = -0.5; });
+  add([](Options& o) { o.band_high = 1; });
+  add([](Options& o) { o.band_high_percent = 60; });
+  add([](Options& o) { o.flatness = 0.3; });
+  add([](Options& o) { o.points = PointSource::area; });
+  add([](Options& o) { o.points = PointSource::area, o.point_spacing = 0.2; });
+  add([](Options& o) { o.radius_max = 0.03, o.radius_unit = RadiusUnit::model; });
   add([](Options& o) { o.threshold.reset(), o.coverage = 0.8; });
   add([](Options& o) { o.threshold.reset(), o.threshold_percent = 60; });
   const auto entries = entries_of(series);

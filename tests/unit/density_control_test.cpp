@@ -18,33 +18,28 @@ LeafPoint leaf(float major, float minor, double area = 0) {
 
 const Box kCrown{{-1, -1, -1}, {1, 1, 1}};
 
-/// The paper's band where the options have none; this room knows no styles.
-Options with_band(Options options) {
-  if (!options.band_low && !options.band_low_percent) options.band_low = 0;
-  if (!options.band_high && !options.band_high_percent) options.band_high = 2;
-  return options;
+/// At vertices, with the paper's band.
+ControlOptions at_vertices() {
+  return {.points = PointSource::vertices, .low = {0, {}}, .high = {2, {}}};
 }
 
-Options controlled(double flatness) {
-  Options options;
-  options.method = Method::controlled;
-  options.flatness = flatness;
-  return options;
+ControlOptions controlled(double flatness) {
+  return {.method = Method::controlled, .points = PointSource::vertices, .flatness = flatness};
 }
 
 TEST(Control, StatisticsOfEquations9And10) {
   const std::vector<LeafPoint> leaves(4, leaf(1, 1));
   const std::vector<float> density{1, 2, 3, 6};
-  Options options;
-  const DensityStatistics s = density_statistics(leaves, density, kCrown, with_band(options));
+  ControlOptions options = at_vertices();
+  const DensityStatistics s = density_statistics(leaves, density, kCrown, options);
   EXPECT_DOUBLE_EQ(s.mean, 3);
   EXPECT_DOUBLE_EQ(s.variance, 3.5);
   EXPECT_DOUBLE_EQ(s.p1, 3);
   EXPECT_DOUBLE_EQ(s.p2, 3 + 2 * std::sqrt(3.5));
 
   options.spread = Spread::variance;
-  options.band_low = -1;
-  const DensityStatistics v = density_statistics(leaves, density, kCrown, with_band(options));
+  options.low = {-1, {}};
+  const DensityStatistics v = density_statistics(leaves, density, kCrown, options);
   EXPECT_DOUBLE_EQ(v.p1, 3 - 3.5);
   EXPECT_DOUBLE_EQ(v.p2, 3 + 2 * 3.5);
 }
@@ -84,7 +79,7 @@ TEST(Control, MethodsDifferInTheirRadiiAlone) {
   const DensityStatistics s{.mean = 0, .variance = 0, .p1 = 2, .p2 = 4};
   const std::vector<LeafPoint> leaves(1, leaf(1.0f, 0.5f));
   const std::vector<float> density{2};
-  Options options = controlled(1.0);
+  ControlOptions options = controlled(1.0);
   options.method = Method::uncontrolled;
   EXPECT_FLOAT_EQ(controlled_kernels(leaves, density, s, 2.0, options)[0].radius_minor, 0.5f);
   options.method = Method::isotropic;
@@ -114,7 +109,7 @@ TEST(Control, KernelsOfLeafAreaIntegrateToItOverTheirPlane) {
   const DensityStatistics s{.mean = 0, .variance = 0, .p1 = 2, .p2 = 4};
   const std::vector<LeafPoint> leaves{leaf(1.0f, 0.5f, 0.7)};
   for (const int falloff : {1, 2, 3}) {
-    Options options = controlled(0.8);
+    ControlOptions options = controlled(0.8);
     options.falloff = falloff;
     for (const Kernel& k : {controlled_kernels(leaves, std::vector<float>{4}, s, 2.0, options)[0],
                             isotropic_kernels(leaves, 2.0, falloff)[0]}) {
@@ -128,15 +123,14 @@ TEST(Control, KernelsOfLeafAreaIntegrateToItOverTheirPlane) {
 
 TEST(Control, LeafPointsCountByTheirArea) {
   const std::vector<LeafPoint> leaves{leaf(1, 1, 3), leaf(1, 1, 1)};
-  Options options;
+  ControlOptions options = at_vertices();
   options.points = PointSource::area;
-  const DensityStatistics s =
-      density_statistics(leaves, std::vector<float>{1, 5}, kCrown, with_band(options));
+  const DensityStatistics s = density_statistics(leaves, std::vector<float>{1, 5}, kCrown, options);
   EXPECT_DOUBLE_EQ(s.mean, 2);
   EXPECT_DOUBLE_EQ(s.variance, 3);
   // A ripple is no spread.
   const DensityStatistics even =
-      density_statistics(leaves, std::vector<float>{1.01f, 0.97f}, kCrown, with_band(options));
+      density_statistics(leaves, std::vector<float>{1.01f, 0.97f}, kCrown, options);
   EXPECT_NEAR(even.p2, 1.3 * even.mean, 1e-9);
 }
 
@@ -144,11 +138,10 @@ TEST(Control, TheBandByShares) {
   const std::vector<LeafPoint> leaves(10, leaf(1, 1));
   const std::vector<float> density{7, 1, 9, 3, 5, 10, 2, 8, 4, 6};
   const auto band_of = [&](double low, double high) {
-    Options options;
-    options.style = Style::paper_thin;
-    options.band_low_percent = low;
-    options.band_high_percent = high;
-    return density_statistics(leaves, density, kCrown, with_band(options));
+    ControlOptions options = at_vertices();
+    options.low = {{}, low};
+    options.high = {{}, high};
+    return density_statistics(leaves, density, kCrown, options);
   };
   EXPECT_EQ(band_of(30, 70).p1, 3);
   EXPECT_EQ(band_of(30, 70).p2, 7);
@@ -160,12 +153,12 @@ TEST(Control, TheBandByShares) {
 
 TEST(Control, TheBandByShareOfAreaIsNoNarrowerThanARipple) {
   const std::vector<LeafPoint> leaves{leaf(1, 1, 1), leaf(1, 1, 2), leaf(1, 1, 1)};
-  Options options;
+  ControlOptions options = at_vertices();
   options.points = PointSource::area;
-  options.band_low_percent = 30;
-  options.band_high_percent = 75;
+  options.low = {{}, 30};
+  options.high = {{}, 75};
   const DensityStatistics s =
-      density_statistics(leaves, std::vector<float>{1, 2, 4}, kCrown, with_band(options));
+      density_statistics(leaves, std::vector<float>{1, 2, 4}, kCrown, options);
   EXPECT_DOUBLE_EQ(s.mean, 2.25);
   EXPECT_DOUBLE_EQ(s.p1, 2 - 0.15 * s.mean) << "both shares end at one density, 2";
   EXPECT_DOUBLE_EQ(s.p2, 2 + 0.15 * s.mean);
@@ -173,12 +166,11 @@ TEST(Control, TheBandByShareOfAreaIsNoNarrowerThanARipple) {
 
 TEST(Control, ABandUpsideDownOnThisTree) {
   const std::vector<LeafPoint> leaves(3, leaf(1, 1));
-  Options options;
-  options.style = Style::paper_thin;
-  options.band_low = 0;
-  options.band_high_percent = 10;
+  ControlOptions options = at_vertices();
+  options.low = {0, {}};
+  options.high = {{}, 10};
   try {
-    (void)density_statistics(leaves, std::vector<float>{1, 2, 3}, kCrown, with_band(options));
+    (void)density_statistics(leaves, std::vector<float>{1, 2, 3}, kCrown, options);
     FAIL();
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ErrorCode::usage);
@@ -191,7 +183,7 @@ TEST(Control, StraysCountForNothing) {
   std::vector<LeafPoint> leaves(3, leaf(1, 1));
   leaves[1].position = {0, 5, 0};
   const DensityStatistics s =
-      density_statistics(leaves, std::vector<float>{1, 100, 3}, kCrown, with_band({}));
+      density_statistics(leaves, std::vector<float>{1, 100, 3}, kCrown, at_vertices());
   EXPECT_DOUBLE_EQ(s.mean, 2);
   EXPECT_DOUBLE_EQ(s.variance, 1);
 }

@@ -9,6 +9,7 @@
 
 #include "glb_builder.h"
 #include "input/gltf.h"
+#include "input/image_table.h"
 #include "input/images.h"
 #include "read_built.h"
 #include "temporary_folder.h"
@@ -53,6 +54,33 @@ TEST(Images, DecodesOnlyWhatAPrimitiveShows) {
   const TreeModel tree = read(b);
   EXPECT_EQ(tree.images.size(), 1u);
   EXPECT_EQ(tree.materials[1].base_color_image, -1);
+}
+
+// Four at a time, in the order in which they were asked for.
+TEST(Images, AreKeptUpToALimit) {
+  TreeModel tree;
+  ImageTable table(10 * 16);  // ten of 2 x 2 pixels
+  const auto load = [](const std::string& name) {
+    ImageSource source{.name = name, .place = "place of " + name};
+    source.load = [name]() -> leafhull::Bytes {
+      if (name == "3") throw FileError("gone");
+      const auto file = png(2, 2, kPixels);
+      return leafhull::Bytes(file.begin(), file.end());
+    };
+    return source;
+  };
+  for (int i = 0; i < 12; ++i) EXPECT_EQ(table.number_of({std::to_string(i), ""}, load, tree), i);
+  EXPECT_EQ(table.number_of({"5", ""}, load, tree), 5) << "each once";
+  table.decode(tree);
+  ASSERT_EQ(tree.images.size(), 12u);
+  for (int i = 0; i < 12; ++i) {
+    EXPECT_EQ(tree.images[i].name, std::to_string(i));
+    EXPECT_EQ(tree.images[i].empty(), i == 3 || i == 11) << i;
+  }
+  EXPECT_EQ(tree.warnings,
+            (std::vector<std::string>{"place of 3: texture not read: gone",
+                                      "place of 11: texture not read: the images of the file are "
+                                      "larger than 2 GiB together"}));
 }
 
 TEST(Images, TellsInOneLineWhyThereIsNone) {

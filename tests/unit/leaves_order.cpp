@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <random>
 
@@ -185,6 +187,60 @@ TEST(LeafOrder, ManyLeavesInOnePrimitiveOrInSeveralAreTheSame) {
   expect_equal(leaves, expected);
   expect_equal_sheets(*leaves.sheets, *expected.sheets);
   EXPECT_EQ(leaves.order_in_file.size(), expected.order_in_file.size());
+}
+
+/// Closed octahedra, which are solids.
+Primitive balls(Random& random, int count) {
+  Primitive primitive;
+  for (int i = 0; i < count; ++i) {
+    const Vec3f middle = random_point(random, 10);
+    const auto first = static_cast<std::uint32_t>(primitive.positions.size());
+    for (const Vec3f d : {Vec3f{1, 0, 0}, Vec3f{0, 1, 0}, Vec3f{0, 0, 1}}) {
+      primitive.positions.push_back(middle + d);
+      primitive.positions.push_back(middle - d);
+    }
+    for (std::uint32_t corner = 0; corner < 8; ++corner) {
+      const std::uint32_t x = first + (corner & 1), y = first + 2 + (corner >> 1 & 1),
+                          z = first + 4 + (corner >> 2 & 1);
+      const bool is_even = std::popcount(corner) % 2 == 0;
+      primitive.triangles.push_back(is_even ? std::array{x, y, z} : std::array{x, z, y});
+    }
+  }
+  return primitive;
+}
+
+// Textured leaves, of which some are split, and solids, more than are collected at a time.
+TEST(LeafOrder, ThreadsDoNotShow) {
+  Random random(11);
+  const TreeModel tree =
+      test::masked(tree_of({crown(random, 12'000), balls(random, 9'000)}),
+                   test::alpha_image(32, test::opaque_inside(0.5, 0.5, 0.4, 0.3)));
+  const LeafOptions all = test::with_globs({"*"});
+  const LeafSet many = find_leaves(tree, all);
+  const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+  const LeafSet few = find_leaves(tree, all);
+  expect_equal(many, few);
+  expect_equal_sheets(*many.sheets, *few.sheets);
+  ASSERT_EQ(many.sheets->solids.size(), 9'000u);
+  for (std::size_t i = 0; i < many.sheets->solids.size(); ++i) {
+    ASSERT_EQ(many.sheets->solids[i].area, few.sheets->solids[i].area) << i;
+    ASSERT_EQ(many.sheets->solids[i].triangles, few.sheets->solids[i].triangles) << i;
+  }
+}
+
+// The leaves of a frame are found by what was chosen in another.
+TEST(LeafOrder, VerticesThatHaveMovedAreWeldedAnew) {
+  Random random(7);
+  const TreeModel rest = tree_of({crown(random, 50)});
+  const LeafChoice choice = choose_leaves(rest, {});
+  TreeModel moved = rest;
+  std::vector<Vec3f>& positions = moved.primitives[0].positions;
+  for (std::size_t i = 0; i < positions.size(); i += 8) positions[i] = positions[(i + 4) % 200];
+  expect_equal(find_leaves(moved, choice, {}), find_leaves(moved, {}));
+  positions.push_back({0, 0, 20});  // and one more than was welded
+  moved.primitives[0].normals.push_back({0, 0, 1});
+  moved.primitives[0].uvs.push_back({0, 0});
+  expect_equal(find_leaves(moved, choice, {}), find_leaves(moved, {}));
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, LeafOrder, ::testing::Values(1u, 2u, 3u, 4u));
