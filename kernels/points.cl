@@ -12,27 +12,18 @@
 #ifndef LANES
 #define LANES CHUNK_POINTS
 #endif
+#include "lanes.clh"
 
 #if LANES == 8
-typedef float8 real;
-typedef int8 truth;
 #define LOAD(p) vload8(get_global_id(0), p)
 #define STORE(v, p) vstore8(v, get_global_id(0), p)
-#define ANY(c) any(c)
 #elif LANES == 16
-typedef float16 real;
-typedef int16 truth;
 #define LOAD(p) vload16(get_global_id(0), p)
 #define STORE(v, p) vstore16(v, get_global_id(0), p)
-#define ANY(c) any(c)
 #else
-typedef float real;
-typedef int truth;
 #define LOAD(p) ((p)[get_global_id(0)])
 #define STORE(v, p) ((p)[get_global_id(0)] = (v))
-#define ANY(c) (c)
 #endif
-#define REAL(x) ((real)(x))
 #define CHUNK (get_global_id(0) * LANES / CHUNK_POINTS)
 
 // Which kernels a chunk's points see, and from where: `PointChunk` of the host.
@@ -41,15 +32,8 @@ typedef struct {
   uint first, end;  // in the list
 } Chunk;
 
-typedef struct {
-  real x, y, z;
-} Real3;
-
 static Real3 scaled(Real3 v, real s) { return (Real3){v.x * s, v.y * s, v.z * s}; }
 static real square(Real3 v) { return fma(v.x, v.x, fma(v.y, v.y, v.z * v.z)); }
-static Real3 along(Real3 from, Real3 way, real t) {
-  return (Real3){fma(t, way.x, from.x), fma(t, way.y, from.y), fma(t, way.z, from.z)};
-}
 static Real3 choose3(Real3 no, Real3 yes, truth c) {
   return (Real3){select(no.x, yes.x, c), select(no.y, yes.y, c), select(no.z, yes.z, c)};
 }
@@ -58,15 +42,6 @@ typedef struct {
   real density;
   Real3 gradient;
 } Sample;
-
-// w^(k - 1) where w > 0, and 0 where w = 0.
-#if FALLOFF == 1
-#define SLOPE(w) select(REAL(0.0f), REAL(1.0f), (w) > REAL(0.0f))
-#elif FALLOFF == 2
-#define SLOPE(w) (w)
-#else
-#define SLOPE(w) ((w) * (w))
-#endif
 
 static Sample density_at(global const Kernel* kernels, global const uint* list,
                          global const Chunk* chunk, Real3 p) {

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "density/falloff.h"
 #include "density/lattice.h"
 #include "leafhull/shape.h"
 
@@ -43,11 +44,6 @@ inline KernelForm form_of(const Kernel& kernel) {
   };
   return {over(major, kernel.radius_major), over(cross(normal, major), kernel.radius_minor),
           over(normal, kernel.radius_normal)};
-}
-
-/// h = w^(1/k).
-inline float top_of(float weight, int falloff) {
-  return falloff == 1 ? weight : falloff == 2 ? std::sqrt(weight) : std::cbrt(weight);
 }
 
 /// A kernel around `centre`, model units, without its form.
@@ -91,7 +87,7 @@ inline LatticeKernel to_lattice(Vec3d centre, const KernelForm& form, float top,
 
 /// `falloff`: k, which the root of the weight depends on.
 inline LatticeKernel to_lattice(const Kernel& kernel, const Lattice& lattice, int falloff) {
-  const float top = top_of(kernel.weight, falloff);
+  const float top = falloff_root(kernel.weight, falloff);
   return is_isotropic(kernel)
              ? to_lattice(kernel.centre, static_cast<double>(kernel.radius_major), top, lattice)
              : to_lattice(kernel.centre, form_of(kernel), top, lattice);

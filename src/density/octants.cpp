@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "density/falloff.h"
 #include "density/simd.h"
 
 namespace leafhull {
@@ -20,9 +21,7 @@ struct Outcome {
 FOR_EVERY_VECTOR_WIDTH
 void test(std::span<const LatticeKernel> kernels, std::span<const std::uint32_t> ranks,
           const Octants& octants, float half, int falloff, Outcome& outcome) {
-  const auto power = [falloff](Floats w) {
-    return falloff == 1 ? w : falloff == 2 ? w * w : w * w * w;
-  };
+  const auto power = [falloff](Floats w) { return falloff_power(w, falloff); };
   const Floats qx = octants.centre.x + octants.apart * Floats{-1, -1, -1, -1, 1, 1, 1, 1};
   const Floats qy = octants.centre.y + octants.apart * Floats{-1, -1, 1, 1, -1, -1, 1, 1};
   const Floats qz = octants.centre.z + octants.apart * Floats{-1, 1, -1, 1, -1, 1, -1, 1};

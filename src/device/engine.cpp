@@ -3,6 +3,7 @@
 
 #include <string_view>
 
+#include "density/lattice.h"
 #include "leafhull/error.h"
 
 namespace leafhull {
@@ -21,7 +22,7 @@ cl::Program::Sources sources(bool vector) {
 }
 
 std::string build_options(const Device::Engine& engine, int falloff) {
-  return "-cl-std=CL1.2 -DFALLOFF=" + std::to_string(falloff) +
+  return Device::Engine::density_options(falloff) +
          " -DCHUNK_POINTS=" + std::to_string(engine.chunk_points()) +
          (engine.vector() ? "" : " -DLANES=1");
 }
@@ -59,6 +60,12 @@ cl::Kernel Device::Engine::kernel(const char* name, const std::string& program,
     built = programs.emplace(key, build(sources, options)).first;
   }
   return cl::Kernel(built->second, name);
+}
+
+std::string Device::Engine::density_options(int falloff) {
+  return "-cl-std=CL1.2 -DFALLOFF=" + std::to_string(falloff) +
+         " -DBRICK_EDGE=" + std::to_string(kBrickEdge) +
+         " -DROOT_EDGE=" + std::to_string(kRootEdge);
 }
 
 cl::Kernel Device::Engine::kernel(const char* name, int falloff) {

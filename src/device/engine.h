@@ -19,6 +19,13 @@ namespace leafhull {
 /// A driver's answer without the padding of some drivers.
 std::string trimmed(std::string text);
 
+/// Sets all arguments of a kernel, in order.
+template <class... Arguments>
+void set_arguments(cl::Kernel& kernel, const Arguments&... arguments) {
+  cl_uint i = 0;
+  (kernel.setArg(i++, arguments), ...);
+}
+
 /// An opened device: its context, its queue and the programs built so far.
 struct Device::Engine {
   DeviceInfo info;
@@ -47,6 +54,9 @@ struct Device::Engine {
   /// @throws Error device, as build.
   cl::Kernel kernel(const char* name, const std::string& program,
                     const cl::Program::Sources& sources, const std::string& options);
+
+  /// What every kernel of the density is built with: the constants that the host has too.
+  static std::string density_options(int falloff);
 
   /// The density kernel `name` for a falloff.
   /// @throws Error device, as build.

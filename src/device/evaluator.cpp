@@ -53,8 +53,6 @@ std::uint64_t Evaluator::sample(const BrickList& bricks, std::span<float> sample
   d.engine.run("evaluating the density", [&] {
     cl::Kernel kernel = d.engine.kernel("density_bricks", d.falloff);
     const cl::Buffer list = d.engine.input(bricks.kernels);
-    kernel.setArg(0, d.kernels);
-    kernel.setArg(3, list);
     const std::size_t items = d.engine.vector() ? 1 : kWorkItems;
     for (std::size_t begin = 0; begin < bricks.size(); begin += kBricksPerLaunch) {
       const std::size_t count = std::min(kBricksPerLaunch, bricks.size() - begin);
@@ -66,10 +64,7 @@ std::uint64_t Evaluator::sample(const BrickList& bricks, std::span<float> sample
           std::span<const std::uint32_t>(bricks.first).subspan(begin, count + 1), CL_MEM_READ_ONLY);
       const cl::Buffer samples_out = d.engine.buffer(out, CL_MEM_WRITE_ONLY);
       const cl::Buffer pairs_out = d.engine.buffer(out_pairs, CL_MEM_WRITE_ONLY);
-      kernel.setArg(1, origins_in);
-      kernel.setArg(2, first_in);
-      kernel.setArg(4, samples_out);
-      kernel.setArg(5, pairs_out);
+      set_arguments(kernel, d.kernels, origins_in, first_in, list, samples_out, pairs_out);
       d.engine.queue.enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(count * items),
                                           cl::NDRange(items));
       d.engine.fetch(samples_out, out);
@@ -86,15 +81,12 @@ std::vector<float> Evaluator::density(const PointBatch& batch) {
   std::vector<float> density(batch.index.size());
   d.engine.run("evaluating the density at points", [&] {
     cl::Kernel kernel = d.engine.kernel("density_points", d.falloff);
-    const cl::Buffer in[] = {d.engine.input(batch.chunks), d.engine.input(batch.kernels),
-                             d.engine.input(batch.x), d.engine.input(batch.y),
-                             d.engine.input(batch.z)};
+    const cl::Buffer chunks = d.engine.input(batch.chunks), list = d.engine.input(batch.kernels);
+    const cl::Buffer x = d.engine.input(batch.x), y = d.engine.input(batch.y),
+                     z = d.engine.input(batch.z);
     const cl::Buffer out = d.engine.buffer(std::span(density), CL_MEM_WRITE_ONLY);
-    kernel.setArg(0, d.kernels);
-    kernel.setArg(1, in[0]);
-    kernel.setArg(2, static_cast<cl_uint>(batch.chunks.size()));
-    for (cl_uint i = 1; i < 5; ++i) kernel.setArg(2 + i, in[i]);
-    kernel.setArg(7, out);
+    set_arguments(kernel, d.kernels, chunks, static_cast<cl_uint>(batch.chunks.size()), list, x, y,
+                  z, out);
     d.launch_points(kernel, batch.chunks.size());
     d.engine.fetch(out, std::span(density));
   });
@@ -108,19 +100,15 @@ Evaluator::Normals Evaluator::snap(PointBatch& batch, double threshold, int step
   d.engine.run("moving vertices onto the surface", [&] {
     cl::Kernel kernel = d.engine.kernel("snap_points", d.falloff);
     const cl::Buffer chunks = d.engine.input(batch.chunks), list = d.engine.input(batch.kernels);
-    kernel.setArg(0, d.kernels);
-    kernel.setArg(1, chunks);
-    kernel.setArg(2, static_cast<cl_uint>(batch.chunks.size()));
-    kernel.setArg(3, list);
-    kernel.setArg(4, static_cast<cl_float>(threshold));
-    kernel.setArg(5, static_cast<cl_int>(steps));
     std::vector<float>* const host[] = {&batch.x,   &batch.y,   &batch.z,
                                         &normals.x, &normals.y, &normals.z};
     cl::Buffer out[6];
     for (cl_uint i = 0; i < 6; ++i) {
       out[i] = d.engine.buffer(std::span(*host[i]), CL_MEM_READ_WRITE);
-      kernel.setArg(6 + i, out[i]);
     }
+    set_arguments(kernel, d.kernels, chunks, static_cast<cl_uint>(batch.chunks.size()), list,
+                  static_cast<cl_float>(threshold), static_cast<cl_int>(steps), out[0], out[1],
+                  out[2], out[3], out[4], out[5]);
     d.launch_points(kernel, batch.chunks.size());
     for (cl_uint i = 0; i < 6; ++i) d.engine.fetch(out[i], std::span(*host[i]));
   });

@@ -18,8 +18,8 @@ constexpr std::size_t kGroup = 16;
 constexpr std::size_t kGroupsPerLaunch = 1 << 15;
 
 std::string closest_options(bool sampled, int lanes, int falloff) {
-  return "-cl-std=CL1.2 -DFALLOFF=" + std::to_string(falloff) +
-         " -DLANES=" + std::to_string(lanes) + (sampled ? " -DSAMPLED" : "");
+  return Device::Engine::density_options(falloff) + " -DLANES=" + std::to_string(lanes) +
+         (sampled ? " -DSAMPLED" : "");
 }
 
 }  // namespace
@@ -66,34 +66,22 @@ struct RayCaster::Impl {
     });
   }
 
-  cl::Kernel kernel(const char* name, int lanes_of_it) {
-    cl::Kernel result = engine.kernel(name, "rays", {std::string(kernel_source_rays)},
-                                      closest_options(sampled, lanes_of_it, falloff));
+  /// Runs the kernel `name` on all rays, `per_item` to a work-item. Its arguments are the grid,
+  /// then `own`, then the number of rays, the rays and the results.
+  template <class Result, class... Arguments>
+  void cast(const char* name, int per_item, std::span<const VoxelRay> rays,
+            std::span<Result> results, const Arguments&... own) {
+    cl::Kernel kernel = engine.kernel(name, "rays", {std::string(kernel_source_rays)},
+                                      closest_options(sampled, lanes, falloff));
     const auto quad = [](Coord c) { return cl_int4{{c.x, c.y, c.z, 0}}; };
-    result.setArg(0, quad(grid.low));
-    result.setArg(1, quad(grid.size));
-    result.setArg(2, roots);
-    result.setArg(3, children);
-    result.setArg(4, samples);
-    result.setArg(5, drawn);
-    result.setArg(6, near);
-    return result;
-  }
-
-  /// Runs `kernel`, whose arguments from `next` on are the number of rays, the rays and the
-  /// results, on all of them, `per_item` to a work-item.
-  template <class Result>
-  void cast(cl::Kernel& kernel, cl_uint next, int per_item, std::span<const VoxelRay> rays,
-            std::span<Result> results) {
     const std::size_t group = kGroup * static_cast<std::size_t>(per_item);
     for (std::size_t begin = 0; begin < rays.size(); begin += kGroupsPerLaunch * group) {
       const std::size_t count = std::min(kGroupsPerLaunch * group, rays.size() - begin);
       const auto out = results.subspan(begin, count);
       const cl::Buffer in = engine.buffer(rays.subspan(begin, count), CL_MEM_READ_ONLY);
       const cl::Buffer results_out = engine.buffer(out, CL_MEM_WRITE_ONLY);
-      kernel.setArg(next, static_cast<cl_uint>(count));
-      kernel.setArg(next + 1, in);
-      kernel.setArg(next + 2, results_out);
+      set_arguments(kernel, quad(grid.low), quad(grid.size), roots, children, samples, drawn, near,
+                    own..., static_cast<cl_uint>(count), in, results_out);
       engine.queue.enqueueNDRangeKernel(kernel, cl::NullRange,
                                         cl::NDRange((count + group - 1) / group * kGroup),
                                         cl::NDRange(kGroup));
@@ -131,26 +119,15 @@ RayCaster::RayCaster(RayCaster&&) noexcept = default;
 void RayCaster::closest(std::span<const VoxelRay> rays, std::span<VoxelHit> hits) {
   Impl& d = *impl_;
   d.engine.run("casting rays", [&] {
-    cl::Kernel kernel = d.kernel("rays_closest", d.lanes);
-    kernel.setArg(7, d.kernels);
-    kernel.setArg(8, d.balls);
-    kernel.setArg(9, d.first);
-    kernel.setArg(10, d.list);
-    kernel.setArg(11, d.threshold);
-    d.cast(kernel, 12, d.lanes, rays, hits);
+    d.cast("rays_closest", d.lanes, rays, hits, d.kernels, d.balls, d.first, d.list, d.threshold);
   });
 }
 
 void RayCaster::blocked(std::span<const VoxelRay> rays, float soft, float reach,
                         std::span<float> blocked) {
   Impl& d = *impl_;
-  d.engine.run("casting rays to the light", [&] {
-    cl::Kernel kernel = d.kernel("rays_blocked", d.lanes);
-    kernel.setArg(7, d.threshold);
-    kernel.setArg(8, soft);
-    kernel.setArg(9, reach);
-    d.cast(kernel, 10, 1, rays, blocked);
-  });
+  d.engine.run("casting rays to the light",
+               [&] { d.cast("rays_blocked", 1, rays, blocked, d.threshold, soft, reach); });
 }
 
 }  // namespace leafhull

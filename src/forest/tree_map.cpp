@@ -40,7 +40,7 @@ Box TreeMap::operator()(const Box& box) const {
 
 LatticeKernel TreeMap::operator()(const Kernel& kernel, const Lattice& lattice, int falloff) const {
   const Vec3d centre = (*this)(kernel.centre);
-  const float top = top_of(kernel.weight, falloff);
+  const float top = falloff_root(kernel.weight, falloff);
   if (similar_ && is_isotropic(kernel)) {
     return to_lattice(centre, static_cast<double>(kernel.radius_major) * scale_, top, lattice);
   }

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <limits>
+#include <string>
 
+#include "density/falloff.h"
 #include "leafhull/options.h"
 
 namespace leafhull {
@@ -19,6 +21,15 @@ std::string_view choices() {
       joined += value;
     }
     return joined;
+  }();
+  return text;
+}
+
+std::string_view falloffs() {
+  static const std::string text = [] {
+    std::string list = "1";
+    for (int k = 2; k <= kLargestFalloff; ++k) list += ", " + std::to_string(k);
+    return list;
   }();
   return text;
 }
@@ -193,12 +204,12 @@ std::span<const OptionRow> option_table() {
        .low_open = true},
       {.name = "falloff",
        .group = "Shape",
-       .range = "1, 2, 3",
+       .range = falloffs(),
        .default_value = "2",
        .help = "k, the exponent of a kernel",
        .member = &Options::falloff,
        .low = 1,
-       .high = 3},
+       .high = kLargestFalloff},
       {.name = "spread",
        .group = "Shape",
        .range = choices<Spread>(),

@@ -95,8 +95,7 @@ struct Passes::Impl {
   void launch(const char* name, const cl::NDRange& global, const cl::NDRange& local,
               const Arguments&... arguments) {
     cl::Kernel& kernel = kernels.at(name);
-    cl_uint i = 0;
-    (kernel.setArg(i++, argument(arguments)), ...);
+    set_arguments(kernel, argument(arguments)...);
     engine.queue.enqueueNDRangeKernel(kernel, cl::NullRange, global, local);
   }
 

@@ -199,6 +199,29 @@ TEST_P(EvaluatorTest, SnapsOntoAnEllipsoid) {
   }
 }
 
+// A sphere is met along its gradient, whose length each step counts on.
+TEST_P(EvaluatorTest, ThreeStepsMeetASphere) {
+  const std::vector<Kernel> kernels{sphere({0.3, 0.2, 0.1}, 2)};
+  const double t = 0.4, radius = 2 * std::sqrt(1 - std::pow(t, 1.0 / falloff()));
+  const Lattice lattice = Lattice::near({0, 0, 0}, 0.1);
+  const KernelSet set(kernels, reference::hash_of(kernels), lattice, falloff());
+  Evaluator evaluator(chosen(), set, falloff());
+  std::vector<Vec3d> points;
+  for (int i = 0; i < 64; ++i) {
+    const Vec3d d(std::cos(0.7 * i) * std::cos(0.1 * i), std::sin(0.1 * i),
+                  std::sin(0.7 * i) * std::cos(0.1 * i));
+    const Vec3d p = lattice.local(kernels[0].centre + d * radius);
+    const Vec3d middle = to_vec3d(cell_of(p)) + Vec3d(0.5, 0.5, 0.5);
+    points.push_back(p + (middle - p) * 0.5);
+  }
+  const Snapped snapped = snap(evaluator, set, points, t, 3);
+  std::size_t met = 0;
+  for (const Vec3d p : snapped.points) {
+    met += std::fabs(length(lattice.world(p) - kernels[0].centre) - radius) < 5e-4 * 0.1;
+  }
+  EXPECT_GE(met, 60u) << "of 64; a step may end on a face of the cell";
+}
+
 TEST_P(EvaluatorTest, SnapsWhereNewtonHasNoWay) {
   // From the far corner of the cell, where N and its gradient are zero: only the corners know.
   const std::vector<Kernel> kernels{sphere({0, 0, 0}, 0.8f)};
