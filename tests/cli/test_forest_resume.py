@@ -255,6 +255,20 @@ class Folders(ForestTest):
         moved = self.scatter(20, "--seed", "2")
         self.refuse(2, ["placing"], *TILED, "--resume", scene=moved)
 
+    def test_trees_that_stand_otherwise(self):
+        rows = ["oak.glb,5,0,5,0,1", "elm.glb,15,0,5,0,1", "oak.glb,25,0,5,0,1"]
+        self.forest(self.stand(*rows), "forest", *TILED, "--tile-range", "1/2")
+        for place, row in (
+            (0, "oak.glb,5,0,5,90,1"),
+            (1, "elm.glb,15,0,5,0,1.2"),
+            (2, "elm.glb,25,0,5,0,1"),
+            (2, "oak.glb,25,0,5.5,0,1"),
+        ):
+            with self.subTest(row):
+                other = self.stand(*rows[:place], row, *rows[place + 1 :], name="other.csv")
+                self.refuse(2, ["placing"], *TILED, "--resume", scene=other)
+        self.forest(self.stand(*rows), "forest", *TILED, "--resume")
+
     def test_another_model(self):
         self.unfinished()
         oak, elm = (self.folder / f"{name}.glb" for name in ("oak", "elm"))

@@ -12,8 +12,12 @@ def listen_to_interrupts():
         signal.signal(number, signal.SIG_DFL)
 
 
+def ignore_hangups():
+    signal.signal(signal.SIGHUP, signal.SIG_IGN)
+
+
 class Interrupt(CommandTest):
-    def start(self, *flags):
+    def start(self, *flags, before=listen_to_interrupts):
         names = ("a.obj", "a.gltf", "a.vdb")
         outputs = [word for name in names for word in ("-o", self.out / name)]
         command = [os.environ["LEAFHULL"], "extract", ASH, *outputs, *flags]
@@ -21,7 +25,7 @@ class Interrupt(CommandTest):
             [str(word) for word in command],
             stdout=subprocess.DEVNULL,
             stderr=subprocess.PIPE,
-            preexec_fn=listen_to_interrupts,
+            preexec_fn=before,
         )
 
     def interrupt(self, process, number):
@@ -41,6 +45,15 @@ class Interrupt(CommandTest):
                 process = self.start("--preset", "film", "--dense")
                 time.sleep(delay)
                 self.interrupt(process, number)
+
+    def test_a_signal_that_is_ignored(self):  # as nohup has it
+        process = self.start("--preset", "fine", before=ignore_hangups)
+        time.sleep(0.3)
+        self.assertIsNone(process.poll(), "ended before it could be told")
+        process.send_signal(signal.SIGHUP)
+        _, text = process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 0, text)
+        self.assertEqual(self.written(), ["a.gltf", "a.obj", "a.vdb"])
 
     def test_while_files_are_written(self):
         for _ in range(5):

@@ -226,7 +226,7 @@ TEST(Leaves, OrderAndSplittingOfVerticesChangeNothing) {
 TEST(Dense, EqualsTheAdaptiveBandForEveryStyle) {
   for (const Style style :
        {Style::painterly, Style::paper_thin, Style::paper_fat, Style::paper_previous}) {
-    for (const double adaptivity : {0.0, 0.5}) {
+    for (const double adaptivity : {0.0, 0.1, 1.0}) {
       Options options = of_style(style, Preset::standard);
       options.adaptivity = adaptivity;
       const Shape band = extract(ash(), options, device());

@@ -27,6 +27,13 @@ struct Near {
   }
 };
 
+TEST(SpatialHash, RanksKernelsOfACellByTheirIndex) {
+  const std::vector<Vec3d> centres(1000, Vec3d(0.5, 0.5, 0.5));
+  const SpatialHash hash(centres, Lattice::near({0, 0, 0}, 1));
+  ASSERT_EQ(hash.order().size(), centres.size());
+  for (std::uint32_t rank = 0; rank < centres.size(); ++rank) EXPECT_EQ(hash.order()[rank], rank);
+}
+
 TEST(Points, EachComesOnceWithAllKernelsThatReachIt) {
   const Near near;
   std::mt19937 random(5);

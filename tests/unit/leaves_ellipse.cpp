@@ -155,6 +155,20 @@ TEST(MaskEllipse, FollowsTheCard) {
   expect_major(set, {1, 0, 0});
 }
 
+// Texels are squares, not points: two standard deviations of a side are side / sqrt(3).
+TEST(MaskEllipse, ATexelHasAnExtent) {
+  const auto texels = [](int columns, int rows) {
+    return [=](double u, double v) {
+      return std::abs(8 * u - 4) * 2 < columns && std::abs(8 * v - 4) * 2 < rows ? 255 : 0;
+    };
+  };
+  const auto leaf = [&](int columns, int rows) {
+    return find_leaves(masked(tree_of({card(1, 1)}), alpha_image(8, texels(columns, rows))), {});
+  };
+  expect_radii(leaf(2, 2), 0.25 / std::numbers::sqrt3, 0.25 / std::numbers::sqrt3, 1e-6);
+  expect_radii(leaf(2, 8), 1 / std::numbers::sqrt3, 0.25 / std::numbers::sqrt3, 1e-6);
+}
+
 TEST(MaskEllipse, SlantedMaskOnARotatedCard) {
   // Along u = v, which runs from the upper left down to the lower right.
   const auto slanted = [](double u, double v) {
