@@ -6,10 +6,10 @@
 
 #include <algorithm>
 #include <bit>
-#include <numeric>
 #include <tuple>
 #include <utility>
 
+#include "leaves/disjoint_sets.h"
 #include "leaves/leaf_mesh.h"
 
 namespace leafhull {
@@ -19,28 +19,6 @@ namespace {
 constexpr double kCosSharp = 0.7071;
 // Two faces this close to lying on each other are the front and the back of one sheet.
 constexpr double kCosDoubled = 0.9999;
-
-/// Union-find; the least member stands for its set.
-class DisjointSets {
- public:
-  explicit DisjointSets(std::size_t count) : parent_(count) {
-    std::iota(parent_.begin(), parent_.end(), 0u);
-  }
-
-  std::uint32_t find(std::uint32_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-
-  void unite(std::uint32_t a, std::uint32_t b) {
-    a = find(a);
-    b = find(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
 
 Face least_rotation(const Face& face) {
   Face least = face;

@@ -12,6 +12,8 @@
 #include <unordered_map>
 #include <vector>
 
+#include "leaves/disjoint_sets.h"
+
 namespace leafhull {
 namespace {
 
@@ -75,15 +77,15 @@ class Groups {
     const Cell cell{along(vertex.x, core_.low.x), along(vertex.y, core_.low.y),
                     along(vertex.z, core_.low.z)};
     const auto [found, is_new] =
-        cells_.try_emplace(key(cell), static_cast<std::uint32_t>(parents_.size()));
-    if (is_new) parents_.push_back(found->second), places_.push_back(cell);
+        cells_.try_emplace(key(cell), static_cast<std::uint32_t>(sets_.size()));
+    if (is_new) sets_.add(), places_.push_back(cell);
     return found->second;
   }
 
-  void join(std::uint32_t a, std::uint32_t b) { parents_[root(a)] = root(b); }
+  void join(std::uint32_t a, std::uint32_t b) { sets_.unite(a, b); }
 
   void join_neighbours() {
-    for (std::uint32_t a = 1; a < parents_.size(); ++a) {
+    for (std::uint32_t a = 1; a < sets_.size(); ++a) {
       const auto [x, y, z] = places_[a];
       for (int i = -kCells; i <= kCells; ++i) {
         for (int j = -kCells; j <= kCells; ++j) {
@@ -96,7 +98,7 @@ class Groups {
     }
   }
 
-  bool joined(std::uint32_t a, std::uint32_t b) { return root(a) == root(b); }
+  bool joined(std::uint32_t a, std::uint32_t b) { return sets_.find(a) == sets_.find(b); }
 
  private:
   struct Cell {
@@ -108,15 +110,10 @@ class Groups {
     return bits(cell.x) | bits(cell.y) << 21 | bits(cell.z) << 42;
   }
 
-  std::uint32_t root(std::uint32_t i) {
-    while (parents_[i] != i) i = parents_[i] = parents_[parents_[i]];
-    return i;
-  }
-
   Box core_;
   double cell_;
   std::unordered_map<std::uint64_t, std::uint32_t> cells_;
-  std::vector<std::uint32_t> parents_{kCore};
+  DisjointSets sets_{1};  ///< the core alone
   std::vector<Cell> places_{Cell{}};
 };
 

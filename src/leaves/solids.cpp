@@ -6,6 +6,8 @@
 #include <map>
 #include <utility>
 
+#include "leaves/disjoint_sets.h"
+
 namespace leafhull {
 namespace {
 
@@ -66,18 +68,11 @@ std::vector<Edge> rim(const LeafMesh& component, const std::vector<std::size_t>&
 }
 
 /// The openings: edges of a rim that hang together.
-std::vector<std::vector<Edge>> openings(const std::vector<Edge>& rim) {
-  std::map<std::uint32_t, std::uint32_t> parent;
-  const auto find = [&](std::uint32_t v) {
-    while (parent.try_emplace(v, v).first->second != v) v = parent[v];
-    return v;
-  };
-  for (const auto& [a, b] : rim) {
-    const std::uint32_t low = std::min(find(a), find(b)), high = std::max(find(a), find(b));
-    parent[high] = low;
-  }
+std::vector<std::vector<Edge>> openings(const std::vector<Edge>& rim, std::size_t points) {
+  DisjointSets sets(points);
+  for (const auto& [a, b] : rim) sets.unite(a, b);
   std::map<std::uint32_t, std::vector<Edge>> loops;
-  for (const Edge& edge : rim) loops[find(edge.first)].push_back(edge);
+  for (const Edge& edge : rim) loops[sets.find(edge.first)].push_back(edge);
   std::vector<std::vector<Edge>> all;
   for (auto& [first, loop] : loops) all.push_back(std::move(loop));
   return all;
@@ -141,7 +136,8 @@ std::vector<EigenTriangle> closed_surface(const LeafMesh& component) {
     surface.push_back({component.points[a], component.points[b], component.points[c]});
     own += area_of(surface.back());
   }
-  for (const std::vector<Edge>& opening : openings(rim(component, faces))) {
+  for (const std::vector<Edge>& opening :
+       openings(rim(component, faces), component.points.size())) {
     Eigen::Vector3d apex = Eigen::Vector3d::Zero();
     for (const auto& [a, b] : opening) apex += component.points[a] + component.points[b];
     apex /= 2 * static_cast<double>(opening.size());
