@@ -2,9 +2,13 @@
 // Whole watercolours of a small made-up tree: a ball of foliage on a trunk, turned about its axis.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <numbers>
+#include <string>
+#include <type_traits>
+#include <variant>
 
 #include "colour/colour.h"
 #include "leafhull/error.h"
@@ -119,6 +123,58 @@ TEST(Watercolour, IsItsSeedAndItsStyle) {
   style.seed = 2;
   EXPECT_GT(difference(first, paint(b, {}, style)), 0.3);
   EXPECT_GT(difference(first, paint(b, {}, shipped_style("wet"))), 1);
+}
+
+/// A style with one number at either end of its range, or a colour at black and white.
+template <class Owner>
+std::array<Style, 2> ends_of(const Style& style, const StyleKey& key, Owner&& owner) {
+  std::array<Style, 2> ends{style, style};
+  for (const int i : {0, 1}) {
+    std::visit(
+        [&](auto member) {
+          auto* value = [&] {
+            if constexpr (requires(Style & s) { s.*member; }) {
+              return &(ends[i].*member);
+            } else {
+              return &(owner(ends[i]).*member);
+            }
+          }();
+          using Value = std::remove_pointer_t<decltype(value)>;
+          if constexpr (std::is_same_v<Value, Vec3f>) {
+            *value = i == 0 ? Vec3f{0, 0, 0} : Vec3f{1, 1, 1};
+          } else {
+            *value = static_cast<Value>(i == 0 ? key.low : key.high);
+          }
+        },
+        key.member);
+  }
+  return ends;
+}
+
+// A pass that is left out shows: the number that it is for changes nothing.
+TEST(Watercolour, EveryRowOfTheTableShows) {
+  const Style style = shipped_style("classic");
+  Painter painter(device());
+  const auto shows = [&](const std::array<Style, 2>& ends, int size) {
+    const render::Buffers b = tree(size, size);
+    const std::vector<Stroke> strokes = leaves(size, size);
+    return painter.paint(b, {strokes}, ends[0]).rgb != painter.paint(b, {strokes}, ends[1]).rgb;
+  };
+  for (const StyleKey& key : style_keys()) {
+    EXPECT_TRUE(shows(ends_of(style, key, [](Style& s) -> Wash& { return s.tone; }), 140))
+        << key.name;
+  }
+  for (const WashName& wash : wash_names()) {
+    for (const StyleKey& key : wash_keys()) {
+      const std::string name = std::string(wash.name) + '.' + std::string(key.name);
+      // No leaf is near the ground; single leaves are drawn sharp; and how wet the edge of a thin
+      // wash is takes some pixels to see.
+      if (name == "ground.raggedness" || name == "leaves.wetness") continue;
+      const int size = key.name == "wetness" ? 800 : 140;
+      EXPECT_TRUE(shows(ends_of(style, key, [&](Style& s) -> Wash& { return s.*wash.wash; }), size))
+          << name;
+    }
+  }
 }
 
 TEST(Watercolour, APainterGoesFromSizeToSize) {
