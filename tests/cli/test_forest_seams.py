@@ -43,6 +43,19 @@ class Seams(ForestTest):
             self.assertTrue(found[0] == whole[0], "the same vertices, bit for bit")
             self.assertTrue(found[1] == whole[1], "the same triangles")
 
+    def test_a_tree_that_has_grown(self):
+        """Its kernels reach as far as it is tall: a tile that forgets some loses surface."""
+        scene = self.stand("oak.glb,0,0,0,0,4")
+        flags = ("--voxel-size", "0.2", "--radius-max", "16", "--method", "isotropic",
+                 "--threshold-percent", "60")  # fmt: skip
+        whole = {}
+        for edge in ("32", "512"):
+            single = self.out / edge / "all.ply"
+            self.forest(scene, edge, *flags, "--tile", edge, "--single", single)
+            whole[edge] = unordered(read_ply(single))
+        self.assertGreater(len(whole["512"][0]), 10000)
+        self.assertEqual(whole["32"], whole["512"])
+
     def test_painterly(self):
         self.same_for_all_tiles("--style", "painterly", "--min-component", "0.02")
 
