@@ -18,10 +18,6 @@ namespace leafhull {
 template <class T>
 struct LeftAsItIs : std::allocator<T> {
   template <class U>
-  struct rebind {
-    using other = LeftAsItIs<U>;
-  };
-  template <class U>
   void construct(U* place) noexcept {
     ::new (static_cast<void*>(place)) U;
   }

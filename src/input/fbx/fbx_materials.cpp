@@ -28,9 +28,9 @@ std::string name_of(const ufbx_texture* texture) {
   if (!texture) return {};
   std::string relative = text_of(texture->relative_filename);
   if (!relative.empty()) return relative;
-  const std::string absolute = text_of(texture->absolute_filename);
+  std::string absolute = text_of(texture->absolute_filename);
   if (!absolute.empty()) return absolute;
-  const std::string own = text_of(texture->name);
+  std::string own = text_of(texture->name);
   return own.empty() ? "texture " + std::to_string(texture->typed_id) : own;
 }
 
