@@ -136,12 +136,12 @@ std::vector<Flag> sweep_flags() {
       {.spelling = "--restart",
        .group = "Output",
        .default_value = "off",
-       .help = "begins anew, in place of the sweep that the folder holds",
+       .help = "starts over and replaces the sweep in the folder",
        .set = [](Arguments& a, const std::string&) { a.restart = true; }},
       {.spelling = "--yes",
        .group = "Output",
        .default_value = "off",
-       .help = "agrees to more than 10,000 combinations",
+       .help = "allows more than 10,000 combinations",
        .set = [](Arguments& a, const std::string&) { a.yes = true; }},
   };
 }
@@ -193,12 +193,12 @@ std::vector<Flag> console_flags() {
       {.spelling = "-q,--quiet",
        .group = "General",
        .default_value = "off",
-       .help = "says nothing but errors",
+       .help = "prints errors only",
        .set = [](Arguments& a, const std::string&) { a.quiet = true; }},
       {.spelling = "-v,--verbose",
        .group = "General",
        .default_value = "off",
-       .help = "says what was found and how long each stage took",
+       .help = "prints what was found and how long each stage took",
        .set = [](Arguments& a, const std::string&) { a.verbose = true; }},
   };
 }

@@ -50,7 +50,7 @@ std::vector<Flag> merge_flags() {
        .group = "Forest",
        .range = "none, canopy",
        .default_value = "canopy",
-       .help = "one surface over the stand, or each model once, with instances",
+       .help = "one surface over all trees, or each model once, placed as instances",
        .set = [](Arguments& a,
                  const std::string& text) { a.forest.merge = chosen<Merge>("--merge", text); }},
       {.spelling = "--control-scope",
@@ -58,7 +58,7 @@ std::vector<Flag> merge_flags() {
        .group = "Forest",
        .range = "model, scene",
        .default_value = "model",
-       .help = "over what the mean density and its spread are taken",
+       .help = "what the mean density and its spread are taken over",
        .set =
            [](Arguments& a, const std::string& text) {
              a.forest.control_scope = chosen<ControlScope>("--control-scope", text);
@@ -68,7 +68,7 @@ std::vector<Flag> merge_flags() {
        .group = "Forest",
        .range = "[1, 8]",
        .default_value = "1",
-       .help = "levels of abstraction, each with voxels and R_max twice as large",
+       .help = "number of levels of detail; each has voxels and R_max twice as large",
        .set =
            [](Arguments& a, const std::string& text) {
              a.forest.levels = whole_number("--levels", text, 1, kMostLevels);
@@ -84,7 +84,7 @@ std::vector<Flag> work_flags() {
        .unit = "bytes, or with K, M, G, T",
        .range = ">= 512M",
        .default_value = "4G",
-       .help = "resident memory of a rank, at most, in a canopy",
+       .help = "most memory that a rank may keep resident, for a canopy",
        .set =
            [](Arguments& a, const std::string& text) {
              a.given.insert("memory");
@@ -103,22 +103,22 @@ std::vector<Flag> work_flags() {
        .group = "Work",
        .range = "1/N to N/N",
        .default_value = "all tiles",
-       .help = "computes part I of N, for farms without MPI; then --finish once",
+       .help = "computes part I of N, for farms without MPI; run --finish once afterwards",
        .set = set_range},
       {.spelling = "--finish",
        .group = "Work",
        .default_value = "off",
-       .help = "makes the result from tiles that are all computed",
+       .help = "assembles the result once all tiles are computed",
        .set = [](Arguments& a, const std::string&) { a.forest.finish = true; }},
       {.spelling = "--resume",
        .group = "Work",
        .default_value = "off",
-       .help = "goes on with what an earlier run has left in DIR",
+       .help = "continues a run that was cut off",
        .set = [](Arguments& a, const std::string&) { a.forest.resume = true; }},
       {.spelling = "--restart",
        .group = "Work",
        .default_value = "off",
-       .help = "begins anew, in place of the forest that DIR holds",
+       .help = "starts over and replaces the forest in DIR",
        .set = [](Arguments& a, const std::string&) { a.forest.restart = true; }},
   };
 }
@@ -137,7 +137,7 @@ std::vector<Flag> forest_output_flags() {
        .group = "Output",
        .range = ".glb .ply",
        .default_value = "none",
-       .help = "the finest level's tiles as well, welded into one mesh",
+       .help = "also writes the finest level's tiles as one welded mesh",
        .set = [](Arguments& a, const std::string& text) { a.forest.single = text; }},
       {.spelling = "--report",
        .value = "FILE",

@@ -43,7 +43,7 @@ std::vector<Flag> scatter_flags() {
        .group = "Trees",
        .range = "[1, 1000000]",
        .default_value = "none",
-       .help = "how many",
+       .help = "number of trees",
        .set =
            [](Arguments& a, const std::string& text) {
              a.scatter.count =
@@ -54,7 +54,7 @@ std::vector<Flag> scatter_flags() {
        .group = "Trees",
        .range = "[0, 2147483647]",
        .default_value = "1",
-       .help = "another one, another forest",
+       .help = "random seed",
        .set =
            [](Arguments& a, const std::string& text) {
              a.scatter.seed = static_cast<std::uint64_t>(
@@ -65,7 +65,7 @@ std::vector<Flag> scatter_flags() {
        .group = "Trees",
        .range = "> 0",
        .default_value = "0.8:1.2",
-       .help = "sizes, evenly between the two",
+       .help = "range of sizes, drawn evenly",
        .set =
            [](Arguments& a, const std::string& text) {
              const Vec2d range =
@@ -79,7 +79,7 @@ std::vector<Flag> scatter_flags() {
        .unit = "crown widths",
        .range = "> 0",
        .default_value = "0.8",
-       .help = "how far trees stand apart; closer, crowns touch",
+       .help = "least distance between trees",
        .set =
            [](Arguments& a, const std::string& text) {
              a.given.insert("spacing");
@@ -109,7 +109,7 @@ std::vector<Flag> scatter_flags() {
        .group = "Ground",
        .unit = "model units",
        .default_value = "10",
-       .help = "of white above black in the height map",
+       .help = "height of white above black in the height map",
        .set =
            [](Arguments& a, const std::string& text) {
              ground_of(a).height = real_number("--height", text, -kWidest, kWidest);
