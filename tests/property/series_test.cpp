@@ -86,7 +86,7 @@ TEST(Series, SaysOfEachEntryWhatAnExtractionSays) {
   add([](Options& o) { o.flatness = 0.3; });
   add([](Options& o) { o.points = PointSource::area; });
   add([](Options& o) { o.points = PointSource::area, o.point_spacing = 0.2; });
-  add([](Options& o) { o.radius_max = 0.03, o.radius_unit = RadiusUnit::model; });
+  add([](Options& o) { o.radius_max = 1.9, o.radius_unit = RadiusUnit::model; });
   add([](Options& o) { o.threshold.reset(), o.coverage = 0.8; });
   add([](Options& o) { o.threshold.reset(), o.threshold_percent = 60; });
   const auto entries = entries_of(series);
