@@ -56,11 +56,11 @@ Kernel kernel_at(const LeafPoint& leaf, Vec3d radii, int falloff) {
 
 ControlOptions control_options(const Options& resolved) {
   return {.method = *resolved.method,
-          .points = *resolved.points,
+          .flatness = *resolved.flatness,
           .spread = resolved.spread,
           .low = {resolved.band_low, resolved.band_low_percent},
           .high = {resolved.band_high, resolved.band_high_percent},
-          .flatness = *resolved.flatness,
+          .points = *resolved.points,
           .falloff = resolved.falloff};
 }
 

@@ -24,11 +24,11 @@ struct BandEnd {
 /// How kernels are controlled. As in Options.
 struct ControlOptions {
   Method method = Method::controlled;
-  PointSource points = PointSource::area;
+  double flatness = 1;  ///< lambda_R
   Spread spread = Spread::stddev;
   BandEnd low{}, high{};  ///< p1 and p2
-  double flatness = 1;    ///< lambda_R
-  int falloff = 2;        ///< k
+  PointSource points = PointSource::area;
+  int falloff = 2;  ///< k
   auto operator<=>(const ControlOptions&) const = default;
 };
 ControlOptions control_options(const Options& resolved);

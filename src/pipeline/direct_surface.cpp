@@ -48,6 +48,7 @@ DirectSurface::DirectSurface(const LeafSet& leaves, const Options& options, Devi
     SampledSurface surface = sliders.surface(prepared, Mesher::bricks, kKeep);
     sampled = std::move(surface.sampled);
     pieces = std::move(surface.pieces);
+    pieces->polygons = {};
   } else {
     sampled = sample(run, prepared, {prepared.threshold}, kKeep);
     sampled.field = without_hollows(run, prepared, std::move(sampled.field));

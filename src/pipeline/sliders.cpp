@@ -89,13 +89,16 @@ Prepared Sliders::solve() {
 SampledSurface Sliders::surface(Prepared& prepared, Mesher mesher, DensityFunction::Lists lists) {
   constexpr int kMostRounds = 8;
   for (int round = 1;; ++round) {
-    SampledSurface surface{sample(run_, prepared, {prepared.threshold}, lists), {}};
-    surface.sampled.field = without_hollows(run_, prepared, std::move(surface.sampled.field));
-    surface.pieces = polygonise(run_, surface.sampled.field, prepared.options, mesher);
-    if (is_eroded(prepared, surface, round == kMostRounds)) {
-      if (options_.erosion) check_dilation(prepared);
-      return surface;
+    {
+      SampledSurface surface{sample(run_, prepared, {prepared.threshold}, lists), {}};
+      surface.sampled.field = without_hollows(run_, prepared, std::move(surface.sampled.field));
+      surface.pieces = polygonise(run_, surface.sampled.field, prepared.options, mesher);
+      if (is_eroded(prepared, surface, round == kMostRounds)) {
+        if (options_.erosion) check_dilation(prepared);
+        return surface;
+      }
     }
+    prepared = {};  // what it shares is given back before the next is made
     prepared = solve();
   }
 }

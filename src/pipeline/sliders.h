@@ -25,7 +25,7 @@ class Sliders {
   Prepared prepare();
 
   /// The surface. Where the lattice shows an erosion that is too far from what is asked for,
-  /// `prepared` becomes another T, with a dilation another R_max.
+  /// `prepared` is replaced by one with another T and, with a dilation, another R_max.
   /// @throws Error usage: as sample(); no T has that erosion.
   SampledSurface surface(Prepared& prepared, Mesher mesher,
                          DensityFunction::Lists lists = DensityFunction::Lists::forget);

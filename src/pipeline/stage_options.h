@@ -7,8 +7,9 @@
 #include "leafhull/options.h"
 #include "pipeline/grid.h"
 
-// What each stage of Figure 8 depends on beside the tree. A stage is given this and nothing else of
-// the options, so what it does not name cannot change its result: a result is kept by it.
+// What the stages of Figure 8 whose results are kept depend on beside the tree. Such a stage is
+// given its struct and nothing else of the options, so what that does not name cannot change its
+// result.
 
 namespace leafhull {
 
@@ -52,7 +53,7 @@ struct FieldOptions {
   auto operator<=>(const FieldOptions&) const = default;
 };
 
-/// Those of all stages, one in the other.
+/// Those of the stages up to the field, one in the other.
 FieldOptions field_options(const Options& resolved, const Grid& grid);
 
 }  // namespace leafhull

@@ -57,13 +57,6 @@ bool is_isotropic_density(const LeafSet& leaves, const KernelsOptions& options) 
 
 }  // namespace
 
-std::vector<Vec3d> local(std::span<const Vec3d> places, const Lattice& lattice) {
-  std::vector<Vec3d> points;
-  points.reserve(places.size());
-  for (const Vec3d& place : places) points.push_back(lattice.local(place));
-  return points;
-}
-
 Prepared Stages::prepare(const Options& resolved, double below) {
   const Run& run = run_;
   const LeafSet& leaves = run.leaves;

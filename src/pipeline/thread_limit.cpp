@@ -6,13 +6,13 @@
 namespace leafhull {
 
 struct ThreadLimit::Control {
-  tbb::global_control control;
+  explicit Control(int threads)
+      : control(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads)) {}
+  tbb::global_control control;  ///< TBB knows it by its place: it is never moved
 };
 
 ThreadLimit::ThreadLimit(int threads) {
-  if (threads == 0) return;
-  control_ = std::make_unique<Control>(tbb::global_control(
-      tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads)));
+  if (threads != 0) control_ = std::make_unique<Control>(threads);
 }
 
 ThreadLimit::~ThreadLimit() = default;

@@ -20,11 +20,11 @@ const Box kCrown{{-1, -1, -1}, {1, 1, 1}};
 
 /// At vertices, with the paper's band.
 ControlOptions at_vertices() {
-  return {.points = PointSource::vertices, .low = {0, {}}, .high = {2, {}}};
+  return {.low = {0, {}}, .high = {2, {}}, .points = PointSource::vertices};
 }
 
 ControlOptions controlled(double flatness) {
-  return {.method = Method::controlled, .points = PointSource::vertices, .flatness = flatness};
+  return {.method = Method::controlled, .flatness = flatness, .points = PointSource::vertices};
 }
 
 TEST(Control, StatisticsOfEquations9And10) {
