@@ -9,8 +9,8 @@
 #include <tuple>
 #include <utility>
 
-#include "leaves/disjoint_sets.h"
 #include "leaves/leaf_mesh.h"
+#include "leaves/union_find.h"
 
 namespace leafhull {
 namespace {
@@ -156,7 +156,7 @@ WeldedMesh weld(const Primitive& primitive, std::span<const std::uint32_t> welde
 
 std::vector<std::uint32_t> label_pieces(const Primitive& primitive,
                                         std::span<const std::uint32_t> welded) {
-  DisjointSets sets(count_of(welded));
+  UnionFind sets(count_of(welded));
   for (const auto& [a, b, c] : primitive.triangles) {
     sets.unite(welded[a], welded[b]);
     sets.unite(welded[a], welded[c]);
@@ -174,7 +174,7 @@ std::vector<std::uint32_t> label_pieces(const Primitive& primitive,
 }
 
 FaceGroups connected_components(const WeldedMesh& mesh) {
-  DisjointSets sets(mesh.positions.size());
+  UnionFind sets(mesh.positions.size());
   for (const Face& face : mesh.faces) {
     sets.unite(face.position[0], face.position[1]);
     sets.unite(face.position[0], face.position[2]);
@@ -188,7 +188,7 @@ FaceGroups connected_components(const WeldedMesh& mesh) {
 FaceGroups split_at_sharp_edges(const LeafMesh& leaf) {
   const auto face_count = static_cast<std::uint32_t>(leaf.faces.size());
   const std::vector<EdgeSide> sides = edge_sides(leaf);
-  DisjointSets sets(face_count);
+  UnionFind sets(face_count);
   for (auto begin = sides.begin(); begin != sides.end();) {
     const auto end = std::find_if(begin, sides.end(),
                                   [&](const EdgeSide& side) { return side.ends != begin->ends; });

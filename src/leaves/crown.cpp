@@ -12,7 +12,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "leaves/disjoint_sets.h"
+#include "leaves/union_find.h"
 
 namespace leafhull {
 namespace {
@@ -113,7 +113,7 @@ class Groups {
   Box core_;
   double cell_;
   std::unordered_map<std::uint64_t, std::uint32_t> cells_;
-  DisjointSets sets_{1};  ///< the core alone
+  UnionFind sets_{1};  ///< the core alone
   std::vector<Cell> places_{Cell{}};
 };
 

@@ -6,7 +6,7 @@
 #include <map>
 #include <utility>
 
-#include "leaves/disjoint_sets.h"
+#include "leaves/union_find.h"
 
 namespace leafhull {
 namespace {
@@ -69,7 +69,7 @@ std::vector<Edge> rim(const LeafMesh& component, const std::vector<std::size_t>&
 
 /// The openings: edges of a rim that hang together.
 std::vector<std::vector<Edge>> openings(const std::vector<Edge>& rim, std::size_t points) {
-  DisjointSets sets(points);
+  UnionFind sets(points);
   for (const auto& [a, b] : rim) sets.unite(a, b);
   std::map<std::uint32_t, std::vector<Edge>> loops;
   for (const Edge& edge : rim) loops[sets.find(edge.first)].push_back(edge);

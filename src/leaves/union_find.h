@@ -10,10 +10,10 @@
 namespace leafhull {
 
 /// Union-find over numbers from 0; the least member stands for its set.
-class DisjointSets {
+class UnionFind {
  public:
   /// Each number below `count` alone.
-  explicit DisjointSets(std::size_t count) : parent_(count) {
+  explicit UnionFind(std::size_t count) : parent_(count) {
     std::iota(parent_.begin(), parent_.end(), 0u);
   }
 
