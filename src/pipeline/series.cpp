@@ -101,7 +101,7 @@ class Series {
                               sampled.pairs, sampled.lists, sampled.density},
                              {}};
       surface.pieces = polygonise(run_, surface.sampled.field, prepared.options, Mesher::bricks);
-      return finish(index, prepared, std::move(surface));
+      return finish(index, prepared, surface);
     });
   }
 
@@ -114,10 +114,11 @@ class Series {
       surface = sliders.surface(prepared, Mesher::bricks);
     });
     if (!failure.empty()) return fail(entry.index, entry.options, entry.grid, failure);
-    return finish(entry.index, prepared, std::move(surface));
+    return finish(entry.index, prepared, surface);
   }
 
-  bool finish(std::size_t index, const Prepared& prepared, SampledSurface surface) {
+  /// Takes the polygons of `surface`.
+  bool finish(std::size_t index, const Prepared& prepared, SampledSurface& surface) {
     auto& [sampled, pieces] = surface;
     SeriesEntry result;
     result.report = describe(run_, prepared);
