@@ -65,7 +65,7 @@ Shown SurfaceColour::of(std::size_t triangle) const {
             mix(Vec3d(colors[corners[0]]), Vec3d(colors[corners[1]]), Vec3d(colors[corners[2]]));
         colour = colour * Vec3f(mixed);
       }
-      if (image_) {
+      if (image_ && material_) {  // an image is its material's
         const Vec2f* uvs = primitive_.uvs.data();
         const Vec2f p = uvs[corners[0]], q = uvs[corners[1]], r = uvs[corners[2]];
         const std::uint8_t* texel =
