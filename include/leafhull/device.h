@@ -57,11 +57,12 @@ class Device {
   std::unique_ptr<Engine> engine_;
 };
 
-/// Bounds the threads of the host, in reading and finding leaves too, for as long as it lives. Of
-/// several bounds the least counts; what takes a Device is bounded by the device's as well.
+/// Bounds the number of host threads while it lives, also while trees are read and leaves are
+/// found. Where there are several bounds, the smallest applies; functions that take a Device also
+/// keep to the device's own bound.
 class ThreadLimit {
  public:
-  /// @param threads 0: no bound.
+  /// @param threads the most threads, or 0 for no bound.
   explicit ThreadLimit(int threads);
   ~ThreadLimit();
   ThreadLimit(const ThreadLimit&) = delete;

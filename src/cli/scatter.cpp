@@ -117,7 +117,7 @@ std::vector<Flag> scatter_flags() {
   };
 }
 
-/// The options that say what leaves are are left out but for --leaves: they do not move a tree.
+/// Of the options about leaves only --leaves is offered: the others do not move a tree.
 std::vector<Flag> input_flags() {
   std::vector<Flag> flags = option_flags("Leaves");
   std::erase_if(flags, [](const Flag& flag) { return flag.spelling != "--leaves"; });

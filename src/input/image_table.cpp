@@ -9,8 +9,8 @@
 namespace leafhull {
 namespace {
 
-/// So many are at hand beyond those that are kept: their files, and up to 256 MiB of pixels, which
-/// decoding may hold three times.
+/// The number of pictures that are decoded at a time. Each takes its file and up to 256 MiB of
+/// pixels, three times that while it is decoded, beyond the pictures that are kept.
 constexpr std::size_t kAtOnce = 4;
 
 }  // namespace

@@ -13,7 +13,7 @@
 
 namespace leafhull {
 
-/// Where the bytes of a picture are, or why there are none.
+/// Tells where the bytes of a picture are, or why there are none.
 struct ImageSource {
   std::string name{};   ///< of the picture in the tree; its end tells TGA
   std::string place{};  ///< as warnings call it
@@ -22,12 +22,12 @@ struct ImageSource {
   std::function<Bytes()> load{};  ///< or what brings them then, on any thread, or throws FileError
 };
 
-/// A picture beside the file, which is looked for now and read when it is decoded.
+/// Looks for a picture beside the file. It is read later, when it is decoded.
 ImageSource companion_image(const Companions& companions, const std::string& name,
                             std::vector<std::string>& warnings);
 
-/// What a material shows: names of its picture of colour and of that of opacity, either may be
-/// empty. Those of one picture alone may be the same.
+/// The names of a material's colour picture and of its opacity picture. Either may be empty, and
+/// both may name the same picture.
 using ImageNames = std::pair<std::string, std::string>;
 
 /// The pictures of a tree, each once: numbered as they are asked for, then read and decoded on all

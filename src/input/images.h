@@ -30,8 +30,9 @@ struct OpacityRange {
 };
 OpacityRange opacity_range(const Image& image);
 
-/// Where a file has no word for it: an opaque material of `tree` whose image has holes is cut out
-/// there, and one whose image shows nothing at all is not, which gets a warning.
+/// Decides about alpha for formats that do not say whether a material is cut out: an opaque
+/// material of `tree` is cut out if its image has holes. If the image shows nothing at all, the
+/// material stays opaque and the tree gets a warning.
 void judge_alpha(TreeModel& tree, Material& material);
 
 /// A colour image, or white where it is empty, with the opacity that another shows: in its alpha

@@ -20,7 +20,8 @@ namespace {
 /// Needles of fewer faces are not looked at.
 constexpr std::size_t kFewestFacesOfSolid = 8;
 
-/// So many components at a time, for their leaves to stay in the cache until they are appended.
+/// The number of components in a batch: few enough for their leaves to stay in the cache until they
+/// are appended.
 constexpr std::size_t kAtATime = 1 << 13;
 
 /// Takes components one after the other. Its numbers count those of all instances.
@@ -93,7 +94,7 @@ class LeafCollector {
     if (source_.texture.draws() && !ellipse->from_texture) ++found.untextured;
   }
 
-  /// Of `mesh_`, in the world.
+  /// The first point of `mesh_` in the world.
   Eigen::Vector3d first_point() const {
     const Eigen::Vector3d first = to_eigen(source_.mesh.positions[mesh_.positions.front()]);
     return placement_.linear * first + placement_.translation;

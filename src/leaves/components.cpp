@@ -69,7 +69,7 @@ bool is_smooth(const LeafMesh& leaf, const EdgeSide& a, const EdgeSide& b) {
   return -cosine >= kCosSharp || cosine >= kCosDoubled;
 }
 
-/// Bits that are in the order of the numbers, one for each number.
+/// Maps a number to bits that sort as the numbers do.
 std::uint32_t ordered_bits(float number) {
   constexpr std::uint32_t kSign = 0x80000000;
   const auto bits = std::bit_cast<std::uint32_t>(number + 0.0f);  // -0 becomes 0

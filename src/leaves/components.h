@@ -48,16 +48,16 @@ struct WeldedMesh {
 /// Which of the primitive's distinct positions each vertex has, as WeldedMesh counts them.
 std::vector<std::uint32_t> weld_positions(const Primitive& primitive);
 
-/// That of each primitive of a tree, or none.
+/// What weld_positions() returns for each primitive of a tree; a primitive may have none.
 struct WeldedPrimitives {
   std::vector<std::vector<std::uint32_t>> of;
 };
 
-/// Whether that is how the primitive is welded: its vertices may have moved since.
+/// Tells whether `welded` still holds for the primitive, whose vertices may have moved since.
 bool is_welded(const Primitive& primitive, std::span<const std::uint32_t> welded);
 
-/// Of those triangles of the primitive, or of all where `triangles` is empty. `welded` as
-/// weld_positions() returns it.
+/// Welds the marked triangles of the primitive, or all of them if `triangles` is empty. `welded` is
+/// what weld_positions() returns.
 WeldedMesh weld(const Primitive& primitive, std::span<const std::uint32_t> welded,
                 const std::vector<bool>& triangles = {});
 

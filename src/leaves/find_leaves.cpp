@@ -32,7 +32,8 @@ void check(const LeafOptions& options) {
   }
 }
 
-/// Memory for so many vertices, 1 GiB, is asked for at once: what is not used costs nothing.
+/// The most vertices, 1 GiB of them, that memory is reserved for. Memory that is not used costs
+/// nothing.
 constexpr std::size_t kMostReserved = std::size_t{1} << 24;
 
 /// The visible parts of textures, by material.

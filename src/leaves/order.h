@@ -21,7 +21,7 @@ std::vector<std::uint32_t> order_by_code(
     std::size_t count, const std::function<std::uint64_t(std::uint32_t)>& code,
     const std::function<bool(std::uint32_t, std::uint32_t)>& precedes);
 
-/// Moves `values[order[i]]` to place i, in the memory that they have. `order`: each place once.
+/// Moves `values[order[i]]` to place i without taking more memory. `order` holds each place once.
 template <class Value>
 void put_in_order(std::vector<Value>& values, std::vector<std::uint32_t> order) {
   for (std::uint32_t first = 0; first < order.size(); ++first) {

@@ -20,7 +20,7 @@ bool reaches(const Field& field) {
 }  // namespace
 
 struct DirectSurface::Impl {
-  /// Of a tree: the kernels and lists that the caster reads.
+  /// The kernels and lists that the caster reads, of a tree alone.
   std::shared_ptr<DensityFunction> density;
   std::shared_ptr<const BrickList> lists;
   Report report;

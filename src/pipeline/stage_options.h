@@ -13,7 +13,7 @@
 
 namespace leafhull {
 
-/// Of the leaf points.
+/// What the leaf points depend on.
 struct PointsOptions {
   PointSource source = PointSource::area;
   double spacing = 0;     ///< of parts of area, model units; 0: vertices
@@ -21,14 +21,14 @@ struct PointsOptions {
   auto operator<=>(const PointsOptions&) const = default;
 };
 
-/// Of the spatial hash.
+/// What the spatial hash depends on.
 struct HashOptions {
   PointsOptions points;
   double radius_max = 0;  ///< model units
   auto operator<=>(const HashOptions&) const = default;
 };
 
-/// Of N_iso.
+/// What N_iso depends on.
 struct DensityOptions {
   HashOptions hash;
   int falloff = 2;  ///< k
@@ -37,14 +37,14 @@ struct DensityOptions {
   auto operator<=>(const DensityOptions&) const = default;
 };
 
-/// Of the kernels.
+/// What the kernels depend on.
 struct KernelsOptions {
   DensityOptions density;
   ControlOptions control;
   auto operator<=>(const KernelsOptions&) const = default;
 };
 
-/// Of the sampled field, beside the thresholds.
+/// What the sampled field depends on, beside the thresholds.
 struct FieldOptions {
   KernelsOptions kernels;
   double voxel_size = 0;  ///< h, model units
@@ -53,7 +53,7 @@ struct FieldOptions {
   auto operator<=>(const FieldOptions&) const = default;
 };
 
-/// Those of the stages up to the field, one in the other.
+/// The options of the stages up to the field, one in the other.
 FieldOptions field_options(const Options& resolved, const Grid& grid);
 
 }  // namespace leafhull

@@ -43,14 +43,15 @@ class Stages {
   /// `run` must outlive it.
   explicit Stages(const Run& run) : run_(run) {}
 
-  /// For options with an R_max. For an erosion, T leaves the share `below` of the leaves below it.
+  /// Prepares the tree with options that have an R_max. For an erosion, T leaves the share `below`
+  /// of the leaves below it.
   /// @throws Error as grid_of and threshold_of do.
   Prepared prepare(const Options& resolved, double below);
 
-  /// As dilation_of.
+  /// Returns dilation_of(), which is kept too.
   double dilation(const Prepared& prepared);
 
-  /// Keeps nothing any more, so that what was handed out is its holders' alone.
+  /// Forgets all results, so that those that were handed out belong to their holders alone.
   void forget() { *this = Stages(run_); }
 
  private:
