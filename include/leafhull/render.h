@@ -85,6 +85,13 @@ Subject tree_subject(std::shared_ptr<const TreeModel> tree, const LeafSet& leave
                      const Options& options, Surfacing surfacing, Device& device,
                      const Progress& progress = {}, const Frame& frame = {});
 
+/// A tree as its file draws it, wood and leaves with their textures. It has looks of its own, but
+/// for watercolour, which is Phong shading instead.
+/// @param choice that of the leaves of `like`.
+/// @param like the abstract shape of the tree: pictures of both are taken from the same place.
+Subject drawn_subject(const std::shared_ptr<const TreeModel>& tree, const LeafChoice& choice,
+                      const Subject& like);
+
 /// A shape that was written to a file.
 /// @throws Error input: no extent.
 Subject shape_subject(std::shared_ptr<const TreeModel> shape);
@@ -141,10 +148,12 @@ struct PictureFiles {
 };
 
 /// Looks at the names before any work is done.
+/// @param subjects how many write_pictures() will be given.
 /// @throws Error usage: no name, an extension that is unknown or that stands for a film of one
-/// picture, one file twice, or the input itself; output: a folder that does not exist or cannot be
-/// written to, or a film without ffmpeg.
-void check_pictures(const PictureFiles& files, const std::filesystem::path& input);
+/// picture or for the buffers of several subjects, one file twice, or the input itself; output: a
+/// folder that does not exist or cannot be written to, or a film without ffmpeg.
+void check_pictures(const PictureFiles& files, const std::filesystem::path& input,
+                    std::size_t subjects = 1);
 
 /// What was written.
 struct PictureSummary {
@@ -154,11 +163,12 @@ struct PictureSummary {
   std::vector<std::string> warnings;
 };
 
-/// Draws and writes, one file after the other, each whole or not at all. The frames of a turntable
-/// are numbered, picture-0001.png; beside them comes picture.mp4 where ffmpeg is on the PATH.
+/// Draws and writes, one file after the other, each whole or not at all. Several subjects stand in
+/// one picture, from left to right, each of `options`' size. The frames of a turntable are
+/// numbered, picture-0001.png; beside them comes picture.mp4 where ffmpeg is on the PATH.
 /// @param progress `done` is the share of all pictures.
 /// @throws Error as draw does; output: which file and why.
-PictureSummary write_pictures(const Subject& subject, const PictureOptions& options,
+PictureSummary write_pictures(std::span<const Subject> subjects, const PictureOptions& options,
                               const PictureFiles& files, Device& device,
                               const Progress& progress = {});
 

@@ -43,6 +43,7 @@ struct Arguments {
   std::optional<Surfacing> surfacing;
   std::optional<double> detail;
   std::optional<bool> is_shape;
+  bool beside = false;
   std::optional<Plate> figure17;
 
   // scatter

@@ -2,11 +2,14 @@
 #include "leafhull/render.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <future>
 #include <memory>
+#include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "cli/console.h"
 #include "cli/flags.h"
@@ -67,6 +70,18 @@ void check_figure17_flags(const Arguments& arguments) {
   }
 }
 
+/// How many subjects stand in a picture.
+std::size_t subjects(const Arguments& arguments) { return arguments.beside ? 2 : 1; }
+
+void check_beside_flags(const Arguments& arguments) {
+  if (arguments.figure17) {
+    refuse("--beside and --figure17 contradict each other", "Give one of the two.");
+  }
+  if (is_field(arguments) || arguments.is_shape.value_or(false)) {
+    refuse("--beside needs the tree itself", "Give a TREE.");
+  }
+}
+
 void check_size(const Arguments& arguments, const PictureOptions& drawing,
                 const DeviceInfo* device = nullptr) {
   if (arguments.figure17) {
@@ -114,7 +129,8 @@ std::vector<std::string> without_effect(const Arguments& arguments, bool is_tree
 PictureOptions checked(const Arguments& arguments) {
   (void)resolve(arguments.options);
   if (arguments.figure17) check_figure17_flags(arguments);
-  check_pictures(arguments.pictures, arguments.tree);
+  if (arguments.beside) check_beside_flags(arguments);
+  check_pictures(arguments.pictures, arguments.tree, subjects(arguments));
   PictureOptions drawing = arguments.drawing;
   drawing.camera = camera_of(arguments.camera, arguments.options.read_options());
   drawing.style = style_of(arguments.watercolour_style, arguments.detail);
@@ -136,7 +152,8 @@ class Run {
       warn(without_effect(arguments_, false));
       Device& device = open();
       const std::optional<double> threshold = arguments_.options.threshold;
-      write(field_subject(arguments_.tree, threshold, surfacing(arguments_), device, progress()),
+      write(std::array{field_subject(arguments_.tree, threshold, surfacing(arguments_), device,
+                                     progress())},
             device);
       return;
     }
@@ -171,8 +188,10 @@ class Run {
 
   void draw_shape(const std::shared_ptr<const TreeModel>& model) {
     const std::string file = arguments_.tree.string();
-    if (arguments_.figure17) {
-      refuse("--figure17 needs a tree, and " + file + " is an abstract shape", "Give a TREE.");
+    if (arguments_.figure17 || arguments_.beside) {
+      refuse(std::string(arguments_.beside ? "--beside" : "--figure17") + " needs a tree, and " +
+                 file + " is an abstract shape",
+             "Give a TREE.");
     }
     if (arguments_.surfacing == Surfacing::direct) {
       refuse("--surface direct needs a density, and " + file + " is a shape of polygons",
@@ -182,7 +201,7 @@ class Run {
       console_.say("leafhull: " + file + " is drawn as an abstract shape (--as tree: as a tree)");
     }
     warn(without_effect(arguments_, false));
-    write(shape_subject(model), open());
+    write(std::array{shape_subject(model)}, open());
   }
 
   void draw_tree(const std::shared_ptr<const TreeModel>& model) {
@@ -198,7 +217,9 @@ class Run {
     const Subject subject =
         tree_subject(model, leaves, arguments_.options, surfacing(arguments_), device, progress());
     warn(subject.report().warnings);
-    write(subject, device);
+    std::vector<Subject> row{subject};
+    if (arguments_.beside) row.insert(row.begin(), drawn_subject(model, *leaves.choice, subject));
+    write(row, device);
   }
 
   void write_figure17(const std::shared_ptr<const TreeModel>& model, const LeafSet& leaves,
@@ -212,8 +233,9 @@ class Run {
                  seconds(elapsed()) + ": " + file.string());
   }
 
-  void write(const Subject& subject, Device& device) {
-    const Report& report = subject.report();
+  /// The shape, the last of `row`, with what stands beside it.
+  void write(std::span<const Subject> row, Device& device) {
+    const Report& report = row.back().report();
     if (report.resolution > 0) {
       console_.detail("surface     T = " + number(report.threshold, 4) + ", " +
                       count(static_cast<std::uint64_t>(report.resolution)) + " voxels of " +
@@ -221,7 +243,7 @@ class Run {
     }
     const int frames = arguments_.pictures.frames;
     const PictureSummary summary = write_pictures(
-        subject, drawing_, arguments_.pictures, device, [&](std::string_view stage, double done) {
+        row, drawing_, arguments_.pictures, device, [&](std::string_view stage, double done) {
           if (frames == 0) {
             console_.progress(stage, done);
           } else {

@@ -9,42 +9,56 @@
 namespace leafhull {
 namespace {
 
-/// The primitive without its leaves.
-Primitive without(const Primitive& primitive, const std::vector<bool>& leaves) {
-  Primitive rest = primitive;
-  rest.triangles.clear();
+/// The triangles of the primitive that are leaves, or those that are none.
+Primitive cut(const Primitive& primitive, const std::vector<bool>& are_leaves, bool leaves) {
+  Primitive part = primitive;
+  part.triangles.clear();
   for (std::size_t t = 0; t < primitive.triangles.size(); ++t) {
-    if (!leaves[t]) rest.triangles.push_back(primitive.triangles[t]);
+    if (are_leaves[t] == leaves) part.triangles.push_back(primitive.triangles[t]);
   }
-  return rest;
+  return part;
 }
 
-}  // namespace
-
-Rest rest_of(std::shared_ptr<const TreeModel> tree, const LeafChoice& choice) {
-  Rest rest;
-  std::map<std::uint32_t, std::uint32_t> cut;  // primitives and what is left of them
+/// The leaves, or all that is none.
+TreePart part_of(std::shared_ptr<const TreeModel> tree, const LeafChoice& choice, bool leaves) {
+  TreePart part;
+  std::map<std::uint32_t, std::uint32_t> known;  // primitives and what is cut out of them
   std::vector<Primitive> more;
   for (std::size_t i = 0; i < tree->instances.size(); ++i) {
     Instance instance = tree->instances[i];
     if (choice.left_out[i] || tree->primitives[instance.primitive].triangles.empty()) continue;
-    if (choice.instances[i]) {
-      const std::vector<bool>& leaves = choice.triangles[instance.primitive];
-      if (leaves.empty()) continue;
-      const auto number = static_cast<std::uint32_t>(tree->primitives.size() + more.size());
-      const auto [known, is_new] = cut.try_emplace(instance.primitive, number);
-      if (is_new) more.push_back(without(tree->primitives[instance.primitive], leaves));
-      instance.primitive = known->second;
+    if (!choice.instances[i]) {
+      if (!leaves) part.instances.push_back(std::move(instance));
+      continue;
     }
-    rest.instances.push_back(std::move(instance));
+    const std::vector<bool>& are_leaves = choice.triangles[instance.primitive];
+    if (!are_leaves.empty()) {
+      const auto number = static_cast<std::uint32_t>(tree->primitives.size() + more.size());
+      const auto [place, is_new] = known.try_emplace(instance.primitive, number);
+      if (is_new) more.push_back(cut(tree->primitives[instance.primitive], are_leaves, leaves));
+      instance.primitive = place->second;
+    } else if (!leaves) {
+      continue;
+    }
+    part.instances.push_back(std::move(instance));
   }
   if (!more.empty()) {
     auto model = std::make_shared<TreeModel>(*tree);
     std::ranges::move(more, std::back_inserter(model->primitives));
     tree = std::move(model);
   }
-  rest.model = std::move(tree);
-  return rest;
+  part.model = std::move(tree);
+  return part;
+}
+
+}  // namespace
+
+TreePart rest_of(std::shared_ptr<const TreeModel> tree, const LeafChoice& choice) {
+  return part_of(std::move(tree), choice, false);
+}
+
+TreePart leaves_of(std::shared_ptr<const TreeModel> tree, const LeafChoice& choice) {
+  return part_of(std::move(tree), choice, true);
 }
 
 }  // namespace leafhull

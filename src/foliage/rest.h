@@ -8,13 +8,18 @@
 
 namespace leafhull {
 
-/// What of a tree is no leaf, coarser levels of detail left out.
-struct Rest {
+/// A part of a tree: its leaves, or all that is none; coarser levels of detail are left out.
+struct TreePart {
   std::shared_ptr<const TreeModel> model;  ///< the tree, with more primitives where some are cut
   std::vector<Instance> instances;         ///< of its primitives, with triangles
 };
 
+/// What of a tree is no leaf.
 /// @param choice of the tree's own instances.
-Rest rest_of(std::shared_ptr<const TreeModel> tree, const LeafChoice& choice);
+TreePart rest_of(std::shared_ptr<const TreeModel> tree, const LeafChoice& choice);
+
+/// What of a tree is leaves, as the file draws them.
+/// @param choice of the tree's own instances.
+TreePart leaves_of(std::shared_ptr<const TreeModel> tree, const LeafChoice& choice);
 
 }  // namespace leafhull

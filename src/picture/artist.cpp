@@ -125,7 +125,8 @@ std::vector<watercolour::Stroke> strokes_of(const Subject::Parts& parts,
 
 Picture Artist::shade(const Subject::Parts& parts, const render::Buffers& buffers,
                       const render::Camera& camera, const PictureOptions& options) {
-  switch (options.look) {
+  const bool painted = options.look == Look::watercolour;
+  switch (painted && parts.as_drawn ? Look::phong : options.look) {
     case Look::normals:
       return render::shade_normals(buffers, camera);
     case Look::depth:

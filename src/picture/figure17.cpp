@@ -14,6 +14,7 @@
 #include "picture/artist.h"
 #include "picture/check_picture.h"
 #include "picture/parts.h"
+#include "picture/side_by_side.h"
 #include "render/contact_sheet.h"
 
 namespace leafhull {
@@ -52,31 +53,12 @@ std::string parameters(const Report& report) {
          ", λ_R = " + decimal(*options.flatness) + ")";
 }
 
-int gap_beside(int width) { return width / 32; }
-
-/// Two pictures of one size in one, white between them.
-Picture side_by_side(const Picture& left, const Picture& right) {
-  const int gap = gap_beside(left.width);
-  Picture both{left.width + gap + right.width, left.height, {}};
-  both.rgb.assign(std::size_t{3} * both.width * both.height, 255);
-  const auto paste = [&](const Picture& picture, int column) {
-    const std::size_t row = std::size_t{3} * picture.width;
-    for (int y = 0; y < picture.height; ++y) {
-      const std::size_t to = 3 * (static_cast<std::size_t>(y) * both.width + column);
-      std::copy_n(picture.rgb.begin() + y * row, row, both.rgb.begin() + to);
-    }
-  };
-  paste(left, 0);
-  paste(right, left.width + gap);
-  return both;
-}
-
 /// Whether a plate of pictures of this size is a PNG file: its bytes with one more for each line
 /// are counted in an int.
 bool fits_a_file(int width, int height) {
   std::vector<LabelledPicture> rows;
   for (const Row& row : kRows) {
-    const Picture blank{2 * width + gap_beside(width), height, {}};
+    const Picture blank{row_width(width, 2), height, {}};
     rows.push_back({blank, {row.caption, ""}});
   }
   const auto [across, down] = render::contact_sheet_size("", rows, 1);
@@ -154,10 +136,11 @@ Picture figure17(const std::shared_ptr<const TreeModel>& tree, const LeafSet& le
         tree, leaves, options_of(row, plate, options), surfacing, device,
         [&](std::string_view stage, double) { tell(stage, 0); }, frame);
     picture.look = Look::phong;
-    const Picture phong = artist.draw(subject, picture, part(1)).picture;
+    Picture phong = artist.draw(subject, picture, part(1)).picture;
     picture.look = Look::watercolour;
-    const Picture watercolour = artist.draw(subject, picture, part(2)).picture;
-    rows.push_back({side_by_side(phong, watercolour), {row.caption, parameters(subject.report())}});
+    Picture watercolour = artist.draw(subject, picture, part(2)).picture;
+    const std::array looks{std::move(phong), std::move(watercolour)};
+    rows.push_back({side_by_side(looks), {row.caption, parameters(subject.report())}});
   }
   return contact_sheet("", rows, 1);
 }

@@ -72,11 +72,16 @@ FilePlan plan_files(const PictureFiles& files) {
   return plan;
 }
 
-void check_pictures(const PictureFiles& files, const fs::path& input) {
+void check_pictures(const PictureFiles& files, const fs::path& input, std::size_t subjects) {
   if (files.files.empty()) {
     throw Error(ErrorCode::usage, "no output is named", "Name one, such as -o picture.png.");
   }
   const FilePlan plan = plan_files(files);
+  if (subjects > 1 && !plan.exr.empty()) {
+    throw Error(ErrorCode::usage,
+                plan.exr.front().string() + " holds what one picture sees, and there are two",
+                "Name a .png file, or leave --beside out.");
+  }
   if (plan.film_was_asked_for && !can_make_films()) {
     throw Error(ErrorCode::output,
                 "cannot write " + plan.films.front().string() + ": ffmpeg is missing",

@@ -33,8 +33,10 @@ struct Subject::Parts {
   std::optional<Vec3f> leaf_colour;           ///< linear, mean; none: unknown
   std::optional<CrownColours> crown_colours;  ///< where they differ
 
-  std::shared_ptr<const TreeModel> model;  ///< of wood, or of a shape
-  Mesh mesh;                               ///< of the foliage, where it is drawn so
+  bool as_drawn = false;  ///< a tree as its file draws it, which no painter paints
+
+  std::vector<std::shared_ptr<const TreeModel>> models;  ///< of wood, leaves or a shape
+  Mesh mesh;                                             ///< of the foliage, where it is drawn so
   render::DeviceHandle embree;
   std::optional<render::Scene> scene;  ///< all that is triangles
   std::optional<render::MeshTarget> triangles;

@@ -58,6 +58,18 @@ Subject finish(std::shared_ptr<Parts> parts, const Surfaces& surfaces) {
   return Subject(std::move(parts));
 }
 
+/// Makes surfaces of a part of a tree. `cut_out` is LeafChoice's, or empty.
+void add(const TreePart& part, render::Look look, const std::vector<bool>& cut_out, Parts& parts,
+         Surfaces& surfaces) {
+  for (const Instance& instance : part.instances) {
+    const int material = part.model->primitives[instance.primitive].material;
+    const bool holes = material >= 0 && !cut_out.empty() && cut_out[material];
+    surfaces.push_back(render::make_surface(parts.embree.get(), *part.model, instance, look,
+                                            parts.placement, holes));
+  }
+  parts.models.push_back(part.model);
+}
+
 /// One for each leaf, in the middle of its vertices and by its place in the file: nothing of it
 /// depends on how a moving tree sorts its leaves.
 std::vector<LeafCard> cards_of(const LeafSet& leaves, const render::Placement& placement) {
@@ -128,8 +140,7 @@ Subject tree_subject(std::shared_ptr<const TreeModel> tree, const LeafSet& leave
   const ThreadLimit limit(device.threads());
   const auto parts = std::make_shared<Parts>();
   const std::shared_ptr<const TreeModel> whole = std::move(tree);
-  const Rest wood = rest_of(whole, *leaves.choice);
-  parts->model = wood.model;
+  const TreePart wood = rest_of(whole, *leaves.choice);
   parts->leaf_colour = leaves.colour;
   std::shared_ptr<const DirectSurface> direct;
   if (surfacing == Surfacing::direct) {
@@ -145,7 +156,7 @@ Subject tree_subject(std::shared_ptr<const TreeModel> tree, const LeafSet& leave
   if (all.points.empty()) {
     all = frame_of(leaves, parts->report.radius_max_model);
     for (const Instance& instance : wood.instances) {
-      const std::vector<Vec3d> points = render::world_positions(*parts->model, instance);
+      const std::vector<Vec3d> points = render::world_positions(*wood.model, instance);
       all.points.insert(all.points.end(), points.begin(), points.end());
     }
   }
@@ -157,10 +168,7 @@ Subject tree_subject(std::shared_ptr<const TreeModel> tree, const LeafSet& leave
 
   parts->embree = render::open_embree();
   Surfaces surfaces;
-  for (const Instance& instance : wood.instances) {
-    surfaces.push_back(render::make_surface(parts->embree.get(), *parts->model, instance,
-                                            render::Look::wood, parts->placement));
-  }
+  add(wood, render::Look::wood, {}, *parts, surfaces);
   if (direct) {
     parts->density.emplace(std::move(direct), parts->placement,
                            render::foliage_colour(leaves.colour));
@@ -170,21 +178,35 @@ Subject tree_subject(std::shared_ptr<const TreeModel> tree, const LeafSet& leave
   return finish(parts, surfaces);
 }
 
+Subject drawn_subject(const std::shared_ptr<const TreeModel>& tree, const LeafChoice& choice,
+                      const Subject& like) {
+  const auto parts = std::make_shared<Parts>();
+  parts->as_drawn = true;
+  parts->placement = like.parts().placement;
+  parts->points = like.parts().points;
+  parts->reach = like.parts().reach;
+  parts->embree = render::open_embree();
+  Surfaces surfaces;
+  add(rest_of(tree, choice), render::Look::wood, {}, *parts, surfaces);
+  add(leaves_of(tree, choice), render::Look::leaf, choice.cut_out, *parts, surfaces);
+  return finish(parts, surfaces);
+}
+
 Subject shape_subject(std::shared_ptr<const TreeModel> shape) {
   const auto parts = std::make_shared<Parts>();
-  parts->model = std::move(shape);
+  const TreeModel& model = *parts->models.emplace_back(std::move(shape));
   Frame frame;
-  for (const Instance& instance : parts->model->instances) {
-    const std::vector<Vec3d> points = render::world_positions(*parts->model, instance);
+  for (const Instance& instance : model.instances) {
+    const std::vector<Vec3d> points = render::world_positions(model, instance);
     frame.points.insert(frame.points.end(), points.begin(), points.end());
   }
   place(frame, *parts);
   parts->embree = render::open_embree();
   Surfaces surfaces;
-  for (const Instance& instance : parts->model->instances) {
-    if (parts->model->primitives[instance.primitive].triangles.empty()) continue;
-    if (!parts->leaf_colour) parts->leaf_colour = render::colour_of_shape(*parts->model, instance);
-    surfaces.push_back(render::make_surface(parts->embree.get(), *parts->model, instance,
+  for (const Instance& instance : model.instances) {
+    if (model.primitives[instance.primitive].triangles.empty()) continue;
+    if (!parts->leaf_colour) parts->leaf_colour = render::colour_of_shape(model, instance);
+    surfaces.push_back(render::make_surface(parts->embree.get(), model, instance,
                                             render::Look::shape, parts->placement));
   }
   return finish(parts, surfaces);

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "leafhull/error.h"
 #include "leafhull/output.h"
@@ -10,6 +11,7 @@
 #include "picture/artist.h"
 #include "picture/files.h"
 #include "picture/film.h"
+#include "picture/side_by_side.h"
 #include "pipeline/stopwatch.h"
 
 namespace leafhull {
@@ -27,13 +29,11 @@ void write_bytes(const fs::path& file, const std::vector<std::uint8_t>& bytes) {
 /// The films of a turntable. One that nobody asked for by name may fail, which is a warning.
 class Films {
  public:
-  Films(const FilePlan& plan, const PictureOptions& options, int frames,
-        std::vector<std::string>& warnings)
+  Films(const FilePlan& plan, int width, int height, int frames, std::vector<std::string>& warnings)
       : asked_for_(plan.film_was_asked_for), warnings_(warnings) {
     for (const fs::path& file : plan.films) {
       attempt([&] {
-        films_.push_back(
-            std::make_unique<Film>(file, options.width, options.height, frames_per_second(frames)));
+        films_.push_back(std::make_unique<Film>(file, width, height, frames_per_second(frames)));
       });
     }
     if (plan.film_is_missing) {
@@ -107,15 +107,36 @@ void add_times(std::vector<StageTime>& sums, const std::vector<StageTime>& times
   }
 }
 
+/// One subject as it is; several in one picture, without buffers.
+Rendering draw_row(Artist& artist, std::span<const Subject> subjects, const PictureOptions& options,
+                   const Progress& progress) {
+  if (subjects.size() == 1) return artist.draw(subjects.front(), options, progress);
+  Rendering row;
+  row.blank = true;
+  std::vector<Picture> pictures;
+  for (const Subject& subject : subjects) {
+    const auto before = static_cast<double>(pictures.size());
+    Rendering one = artist.draw(subject, options, [&](std::string_view stage, double share) {
+      progress(stage, (before + share) / static_cast<double>(subjects.size()));
+    });
+    pictures.push_back(std::move(one.picture));
+    row.blank = row.blank && one.blank;
+    add_times(row.seconds, one.seconds);
+  }
+  row.picture = side_by_side(pictures);
+  return row;
+}
+
 }  // namespace
 
-PictureSummary write_pictures(const Subject& subject, const PictureOptions& asked,
+PictureSummary write_pictures(std::span<const Subject> subjects, const PictureOptions& asked,
                               const PictureFiles& files, Device& device, const Progress& progress) {
   const FilePlan plan = plan_files(files);
   PictureOptions options = asked;
   check_picture(options, &device.info());
   PictureSummary summary;
-  Films films(plan, options, files.frames, summary.warnings);
+  Films films(plan, row_width(options.width, subjects.size()), options.height, files.frames,
+              summary.warnings);
   Artist artist(device);
   const int pictures = std::max(files.frames, 1);
   options.turntable = files.frames > 0;
@@ -125,7 +146,7 @@ PictureSummary write_pictures(const Subject& subject, const PictureOptions& aske
       if (progress) progress(stage, (i + share) / pictures);
     };
     options.turn = static_cast<double>(i) / pictures;
-    const Rendering rendering = artist.draw(subject, options, tell);
+    const Rendering rendering = draw_row(artist, subjects, options, tell);
     summary.blank += rendering.blank;
     add_times(summary.seconds, rendering.seconds);
 

@@ -19,10 +19,6 @@ Vec3f sun_direction(const Camera& camera) {
   return normalized(camera.right * -0.75f + Vec3f{0, 1.1f, 0} + towards_eye * 0.4f);
 }
 
-Vec3f sky(Vec3f direction) {
-  return direction.y < 0 ? kPaperBounce : mix(kHorizon, kZenith, std::sqrt(direction.y));
-}
-
 Vec3f develop(Vec3f radiance) {
   const auto shoulder = [](float x) { return x < 0.5f ? x : 1 - 0.25f / x; };
   return {shoulder(radiance.x), shoulder(radiance.y), shoulder(radiance.z)};

@@ -27,9 +27,6 @@ Vec3f sun_direction(const Camera& camera);
 /// hue, a little less chroma, and half of the way from their lightness to that of a lit mass.
 Vec3f foliage_colour(const std::optional<Vec3f>& leaves);
 
-/// What the sky, or below the horizon the paper, sends from a unit direction.
-Vec3f sky(Vec3f direction);
-
 /// Rolls highlights off below white, colour by colour.
 Vec3f develop(Vec3f radiance);
 

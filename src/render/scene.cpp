@@ -5,7 +5,6 @@
 
 #include <array>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "leafhull/error.h"
@@ -68,15 +67,6 @@ Scene::Scene(RTCDevice device, std::vector<std::shared_ptr<const Surface>> surfa
   if (rtcGetDeviceError(device) != RTC_ERROR_NONE) {
     throw Error(ErrorCode::internal, "Embree cannot build the scene");
   }
-}
-
-std::optional<Hit> Scene::closest(Vec3f origin, Vec3f direction) const {
-  RTCIntersectContext context = incoherent_context();
-  RTCRayHit ray{make_ray(origin, direction, std::numeric_limits<float>::infinity()), {}};
-  ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-  rtcIntersect1(scene_.get(), &context, &ray);
-  if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
-  return hit_of(origin, direction, ray.hit, ray.ray.tfar);
 }
 
 void Scene::closest(std::span<const Ray> rays, std::span<std::optional<Hit>> hits) const {

@@ -30,8 +30,7 @@ class Scene {
   Scene(RTCDevice device, std::vector<std::shared_ptr<const Surface>> surfaces,
         Build build = Build::careful);
 
-  std::optional<Hit> closest(Vec3f origin, Vec3f direction) const;
-  /// Of up to kPacket rays that are neighbours, which is faster than one by one.
+  /// The nearest hits of up to kPacket rays that are neighbours, which is faster than one by one.
   void closest(std::span<const Ray> rays, std::span<std::optional<Hit>> hits) const;
   static constexpr std::size_t kPacket = 16;
   bool occluded(Vec3f origin, Vec3f direction, float distance) const;

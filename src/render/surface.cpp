@@ -85,7 +85,7 @@ std::optional<Vec3f> colour_of_shape(const TreeModel& model, const Instance& ins
 
 std::shared_ptr<const Surface> make_surface(RTCDevice device, const TreeModel& model,
                                             const Instance& instance, Look look,
-                                            const Placement& placement) {
+                                            const Placement& placement, bool cut_out) {
   const Primitive& primitive = model.primitives[instance.primitive];
   auto surface = std::make_shared<Surface>();
   surface->look = look;
@@ -111,7 +111,7 @@ std::shared_ptr<const Surface> make_surface(RTCDevice device, const TreeModel& m
   if (image >= 0 && !primitive.uvs.empty() && !model.images[image].empty()) {
     surface->image = &model.images[image];
   }
-  if (surface->material.alpha_mode != AlphaMode::opaque) {
+  if (cut_out || surface->material.alpha_mode != AlphaMode::opaque) {
     RTCGeometry geometry = surface->geometry.get();
     rtcSetGeometryUserData(geometry, surface.get());
     rtcSetGeometryIntersectFilterFunction(geometry, pass_holes);

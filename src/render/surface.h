@@ -39,9 +39,10 @@ struct Surface {
 };
 
 /// An instance of a tree, or of a shape that was read from a file.
+/// @param cut_out the alpha of its image counts though the material is opaque.
 std::shared_ptr<const Surface> make_surface(RTCDevice device, const TreeModel& model,
                                             const Instance& instance, Look look,
-                                            const Placement& placement);
+                                            const Placement& placement, bool cut_out = false);
 
 std::shared_ptr<const Surface> make_surface(RTCDevice device, const Mesh& mesh,
                                             const Placement& placement);

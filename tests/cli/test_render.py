@@ -24,6 +24,26 @@ class Pictures(Render):
             self.assertFalse(any(map(is_green, foot)))
         self.assertEqual(self.written(), ["picture.png"])
 
+    def test_a_tree_beside_its_shape(self):
+        alone = self.pixels()[2]
+        for look in ("phong", "watercolour"):
+            width, height, rows = self.pixels("--beside", "--look", look)
+            self.assertEqual((width, height), (96 + 3 + 96, 96))
+            tree = [row[:96] for row in rows]
+            if look == "phong":
+                self.assertEqual([row[99:] for row in rows], alone, "the shape, as it is alone")
+                self.assertTrue(all(row[96:99] == [WHITE] * 3 for row in rows))
+            shape = {(x, y) for y in range(96) for x in range(96) if alone[y][x] != WHITE}
+            seen = {(x, y) for y in range(96) for x in range(96) if tree[y][x] != WHITE}
+            self.assertGreater(len(seen), 96 * 96 // 12)
+            self.assertGreater(len(seen & shape), 0.9 * len(seen), "from the same place")
+            self.assertLess(len(seen), 0.9 * len(shape), "leaves with gaps between them")
+            self.assertGreater(sum(is_green(tree[y][x]) for x, y in seen), len(seen) // 3)
+
+    def test_what_cannot_stand_beside_a_shape(self):
+        for flags in (("--figure17",), ("--as", "shape"), ("-o", self.out / "a.exr")):
+            self.refuse(["--beside"], "--beside", *flags)
+
     def test_looks(self):
         pictures = {
             look: self.pixels("--look", look, *MESH)[2]

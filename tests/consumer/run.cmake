@@ -1,4 +1,4 @@
-# Installs BUILD_DIR into WORK_DIR, builds this folder's project against it and runs it on TREE;
+# Installs BUILD_DIR into WORK_DIR, builds examples/extract against it and runs it on TREE;
 # then the installed command, which must find its library by itself.
 cmake_minimum_required(VERSION 3.24)
 
@@ -8,8 +8,8 @@ endfunction()
 
 file(REMOVE_RECURSE ${WORK_DIR})
 run(${CMAKE_COMMAND} --install ${BUILD_DIR} --prefix ${WORK_DIR}/prefix)
-run(${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR} -B ${WORK_DIR}/build -G Ninja
+run(${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR}/../../examples/extract -B ${WORK_DIR}/build -G Ninja
     -DCMAKE_PREFIX_PATH=${WORK_DIR}/prefix -DCMAKE_CXX_COMPILER=${CXX_COMPILER})
 run(${CMAKE_COMMAND} --build ${WORK_DIR}/build)
-run(${WORK_DIR}/build/consumer ${TREE} ${WORK_DIR}/shape.glb)
+run(${WORK_DIR}/build/extract ${TREE} ${WORK_DIR}/shape.glb)
 run(${WORK_DIR}/prefix/bin/leafhull --version)

@@ -292,7 +292,7 @@ TEST(Rest, IsWhatIsNoLeafOfTheFinestLevel) {
                              {mesh, {.name = "DefaultMaterial"}, "", "Oak_LOD1"},
                              {ground(5), {.name = "ground"}, "", "Ground"}});
   const LeafChoice choice = choose_leaves(tree, {});
-  const Rest rest = rest_of(std::make_shared<const TreeModel>(tree), choice);
+  const TreePart rest = rest_of(std::make_shared<const TreeModel>(tree), choice);
   ASSERT_EQ(rest.instances.size(), 2u);
   const Primitive& wood = rest.model->primitives[rest.instances[0].primitive];
   EXPECT_EQ(wood.triangles.size(), trunk().triangles.size());

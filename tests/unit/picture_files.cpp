@@ -53,6 +53,18 @@ TEST(FrameNumbers, HaveFourDigitsOrMore) {
   EXPECT_EQ(numbered("p.png", 12345), "p-12345.png");
 }
 
+TEST_F(PictureFileNames, OfSubjectsInARow) {
+  EXPECT_NO_THROW(check_pictures({{out("a.png")}, 0}, input_, 2));
+  EXPECT_NO_THROW(check_pictures({{out("a.exr")}, 0}, input_, 1));
+  try {
+    check_pictures({{out("a.png"), out("b.exr")}, 0}, input_, 2);
+    FAIL() << "the buffers of which?";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::usage);
+    EXPECT_NE(std::string(error.what()).find("b.exr"), std::string::npos) << error.what();
+  }
+}
+
 TEST_F(PictureFileNames, OfOnePicture) {
   EXPECT_NO_THROW(check_pictures({{out("a.png"), out("b.exr"), out("c.PNG")}, 0}, input_));
   expect_error(ErrorCode::usage, "no output", {});

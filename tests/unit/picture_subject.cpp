@@ -127,7 +127,8 @@ TEST(Drawing, TellsHowFarItIs) {
 
   const TemporaryFolder folder;
   told.clear();
-  write_pictures(subject, facing_the_cube(16, 16), {{folder / "a.exr"}, 3}, device(), progress);
+  write_pictures({&subject, 1}, facing_the_cube(16, 16), {{folder / "a.exr"}, 3}, device(),
+                 progress);
   EXPECT_TRUE(std::is_sorted(told.begin(), told.end(), by_share));
   EXPECT_EQ(told.back(), std::pair(std::string("write"), 1.0));
 }

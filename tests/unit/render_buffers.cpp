@@ -260,6 +260,12 @@ TEST_F(RenderMesh, TheSkyIsHiddenWhereSomethingIsNear) {
   }
 }
 
+std::optional<Hit> closest(const Scene& scene, const Ray& ray) {
+  std::optional<Hit> hit;
+  scene.closest({&ray, 1}, {&hit, 1});
+  return hit;
+}
+
 TEST_F(RenderMesh, RaysInPacketsFindWhatSingleRaysFind) {
   const Camera camera = from_front(2.2);
   std::vector<Ray> rays;
@@ -270,7 +276,7 @@ TEST_F(RenderMesh, RaysInPacketsFindWhatSingleRaysFind) {
   target_.closest(rays, spots);
   int hits = 0;
   for (std::size_t i = 0; i < rays.size(); ++i) {
-    const std::optional<Hit> hit = scene_.closest(rays[i].origin, rays[i].direction);
+    const std::optional<Hit> hit = closest(scene_, rays[i]);
     ASSERT_EQ(spots[i].hit(), hit.has_value()) << i;
     if (!hit) continue;
     ++hits;
@@ -322,7 +328,7 @@ TEST(RenderWood, HasTheColoursOfItsVertices) {
   tree.instances.push_back({});
   const DeviceHandle embree = open_embree();
   const Scene scene(embree.get(), {make_surface(embree.get(), tree, {}, Look::wood, Placement{})});
-  const auto seen = [&](float x) { return scene.closest({x, 0.3f, 1}, {0, 0, -1})->color; };
+  const auto seen = [&](float x) { return closest(scene, {{x, 0.3f, 1}, {0, 0, -1}})->color; };
   EXPECT_LT(apart(seen(-0.999f), {1, 0, 0}), 1e-2f);
   EXPECT_LT(apart(seen(0.999f), {0, 0, 1}), 1e-2f);
   EXPECT_LT(apart(seen(0.5f), {0.25f, 0, 0.75f}), 1e-3f);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// consumer TREE SHAPE: the whole public way, from a tree file to a shape file.
+// extract TREE SHAPE: the whole public way, from a tree file to a shape file.
 #include <leafhull/device.h>
 #include <leafhull/error.h>
 #include <leafhull/leaves.h>
@@ -29,7 +29,7 @@ int main(int argc, char** argv) {
     leafhull::OutputFiles files;
     files.shapes = {shape_path};
     leafhull::check_outputs(files, tree_path);
-    leafhull::write_outputs(files, shape, {tree_path.string(), {"consumer"}});
+    leafhull::write_outputs(files, shape, {tree_path.string(), {"extract"}});
 
     std::cout << "leafhull " << leafhull::kVersion << ": " << leaves.leaf_count << " leaves, "
               << shape.mesh.triangles.size() << " triangles on " << shape.report.device << '\n';
