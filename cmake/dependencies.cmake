@@ -46,6 +46,17 @@ if(LEAFHULL_OPENVDB_MODULE)
 endif()
 leafhull_require(OpenVDB 10.0 "libopenvdb-dev")
 
+# Whether its library holds its mesher compiled, which would take half a minute to compile here.
+include(CheckCXXSourceCompiles)
+set(CMAKE_REQUIRED_LIBRARIES OpenVDB::openvdb TBB::tbb)
+check_cxx_source_compiles("
+  #include <openvdb/openvdb.h>
+  #include <openvdb/tools/VolumeToMesh.h>
+  extern template void openvdb::tools::VolumeToMesh::operator()(const openvdb::FloatGrid&);
+  int main() { openvdb::tools::VolumeToMesh(0, 0)(*openvdb::FloatGrid::create()); }
+" LEAFHULL_OPENVDB_HAS_MESHER)
+unset(CMAKE_REQUIRED_LIBRARIES)
+
 leafhull_require(TinyGLTF 2.7 "libtinygltf-dev" CONFIG)
 leafhull_require(tinyobjloader 2.0.0 "libtinyobjloader-dev" CONFIG)
 leafhull_require(nlohmann_json 3.11 "nlohmann-json3-dev" CONFIG)

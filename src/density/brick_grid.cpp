@@ -8,6 +8,7 @@
 #include <limits>
 #include <utility>
 
+#include "density/field_grid.h"
 #include "leafhull/error.h"
 
 namespace leafhull {
@@ -44,7 +45,7 @@ Slab down_z(Slab here, Slab above) { return (here & ~kFirstZ) >> 1 | (above & kF
 Slab up_y(Slab here, Slab below) { return here << 8 | below >> 56; }
 Slab down_y(Slab here, Slab above) { return here >> 8 | above << 56; }
 
-Coord origin_of(const Field::Brick& brick) {
+Coord origin_of(const Brick& brick) {
   const openvdb::Coord o = brick.origin();
   return {o.x(), o.y(), o.z()};
 }
@@ -60,7 +61,7 @@ BrickGrid::BrickGrid(const Field& field) {
     least = {std::min(least.x, root.x), std::min(least.y, root.y), std::min(least.z, root.z)};
     most = {std::max(most.x, root.x), std::max(most.y, root.y), std::max(most.z, root.z)};
   };
-  for (const Field::Brick* brick : field.bricks()) include(origin_of(*brick));
+  for (const Brick* brick : bricks_of(field)) include(origin_of(*brick));
   for (const Block& block : inside) include(block.origin);
   if (most.x < least.x) least = most = {};
 
@@ -81,7 +82,7 @@ BrickGrid::BrickGrid(const Field& field) {
       }
     }
   }
-  const std::span<const Field::Brick* const> bricks = field.bricks();
+  const std::span<const Brick* const> bricks = bricks_of(field);
   samples.resize(bricks.size() * kBrickSamples);
   origins_.reserve(bricks.size());
   for (std::size_t b = 0; b < bricks.size(); ++b) {

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "density/field.h"
-
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -10,12 +8,17 @@
 #include <limits>
 #include <memory>
 
+#include "density/field_grid.h"
+
 namespace leafhull {
 namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 }  // namespace
+
+Field::Field(const Lattice& lattice, double threshold)
+    : lattice_(lattice), threshold_(threshold), grid_(std::make_shared<Grid>()) {}
 
 void Field::add_bricks(std::span<const Coord> origins, std::span<const float> samples) {
   static_assert(Brick::SIZE == kBrickSamples);
@@ -27,17 +30,17 @@ void Field::add_bricks(std::span<const Coord> origins, std::span<const float> sa
     const auto values = samples.subspan(b * kBrickSamples, kBrickSamples);
     std::transform(values.begin(), values.end(), bricks[b]->buffer().data(), std::negate<>());
   });
-  bricks_.reserve(bricks_.size() + bricks.size());
-  openvdb::FloatGrid::Accessor tree = negated_->getAccessor();
+  grid_->bricks.reserve(grid_->bricks.size() + bricks.size());
+  openvdb::FloatGrid::Accessor tree = grid_->negated->getAccessor();
   for (auto& brick : bricks) {
-    bricks_.push_back(brick.get());
+    grid_->bricks.push_back(brick.get());
     tree.addLeaf(brick.release());
   }
 }
 
 void Field::add_inside(std::span<const InsideBlock> blocks) {
   for (const auto& [block, threshold] : blocks) {
-    negated_->tree().fill(samples_of(block), -inside_value(threshold), false);
+    grid_->negated->tree().fill(samples_of(block), -inside_value(threshold), false);
   }
   inside_.insert(inside_.end(), blocks.begin(), blocks.end());
 }
@@ -52,7 +55,7 @@ void Field::raise(std::span<const BrickPart> parts, std::span<const Block> block
   own_grid();
   const float raised = -inside_value(threshold_);
   tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t p) {
-    float* const values = bricks_[parts[p].brick]->buffer().data();
+    float* const values = grid_->bricks[parts[p].brick]->buffer().data();
     for (std::size_t x = 0; x < kBrickEdge; ++x) {
       for (std::uint64_t bits = parts[p].samples[x]; bits != 0; bits &= bits - 1) {
         values[64 * x + static_cast<std::size_t>(std::countr_zero(bits))] = raised;
@@ -67,11 +70,12 @@ void Field::raise(std::span<const BrickPart> parts, std::span<const Block> block
 
 /// Before what at() shares is altered.
 void Field::own_grid() {
-  if (negated_.use_count() == 1) return;
-  negated_ = negated_->deepCopy();
-  tbb::parallel_for(std::size_t{0}, bricks_.size(), [&](std::size_t b) {
-    bricks_[b] = negated_->tree().probeLeaf(bricks_[b]->origin());
+  if (grid_.use_count() == 1) return;
+  const auto own = std::make_shared<Grid>(Grid{grid_->negated->deepCopy(), grid_->bricks});
+  tbb::parallel_for(std::size_t{0}, own->bricks.size(), [&](std::size_t b) {
+    own->bricks[b] = own->negated->tree().probeLeaf(own->bricks[b]->origin());
   });
+  grid_ = own;
 }
 
 std::vector<Block> Field::inside() const {
@@ -85,9 +89,11 @@ std::vector<Block> Field::inside() const {
 
 float Field::iso_value() const { return std::nextafter(-inside_value(threshold_), kInfinity); }
 
+std::size_t Field::sample_count() const { return grid_->bricks.size() * kBrickSamples; }
+
 float Field::highest() const {
   float lowest_negated = 0;
-  for (const Brick* brick : bricks_) {
+  for (const Brick* brick : grid_->bricks) {
     const float* const values = brick->buffer().data();
     lowest_negated = std::min(lowest_negated, *std::min_element(values, values + Brick::SIZE));
   }

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <openvdb/openvdb.h>
-
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -15,7 +14,7 @@ namespace leafhull {
 /// A bit per sample of a brick: a word per x, bit 8 y + z.
 using SampleBits = std::array<std::uint64_t, kBrickEdge>;
 
-/// Some samples of an evaluated brick, by its place in Field::bricks().
+/// Some samples of an evaluated brick, by its place in bricks_of().
 struct BrickPart {
   std::size_t brick;
   SampleBits samples;
@@ -25,10 +24,7 @@ struct BrickPart {
 /// be at least a threshold, and nothing where it is proven to be below all.
 class Field {
  public:
-  using Brick = openvdb::FloatTree::LeafNodeType;
-
-  explicit Field(const Lattice& lattice = {}, double threshold = 0)
-      : lattice_(lattice), threshold_(threshold) {}
+  explicit Field(const Lattice& lattice = {}, double threshold = 0);
 
   /// Takes evaluated bricks: N, kBrickSamples per origin, z fastest.
   void add_bricks(std::span<const Coord> origins, std::span<const float> samples);
@@ -46,17 +42,15 @@ class Field {
   const Lattice& lattice() const { return lattice_; }
   double threshold() const { return threshold_; }  ///< T
 
-  /// -N in voxels from the anchor, the sign that OpenVDB's mesher asks for: what is below the
-  /// iso-value is inside. Evaluated samples are active, what is proven inside is tiles.
-  const openvdb::FloatGrid& negated() const { return *negated_; }
-  /// Where the surface is in `negated()`: N >= T is -N < iso_value().
+  /// Where the surface is in the grid of -N (density/field_grid.h): N >= T is -N < iso_value().
   float iso_value() const;
-  /// The evaluated bricks, leaf nodes of `negated()`, in the order of their evaluation.
-  std::span<const Brick* const> bricks() const { return bricks_; }
+  /// What OpenVDB keeps of it, for those who include density/field_grid.h.
+  struct Grid;
+  const Grid& grid() const { return *grid_; }
   /// What is proven inside.
   std::vector<Block> inside() const;
 
-  std::size_t sample_count() const { return bricks_.size() * kBrickSamples; }
+  std::size_t sample_count() const;
   /// The highest N evaluated, at least 0.
   float highest() const;
 
@@ -65,18 +59,11 @@ class Field {
 
   Lattice lattice_;
   double threshold_;
-  openvdb::FloatGrid::Ptr negated_ = openvdb::FloatGrid::create(0.0f);
-  std::vector<Brick*> bricks_;
+  std::shared_ptr<Grid> grid_;  ///< fields of other thresholds share it
   std::vector<InsideBlock> inside_;
 };
 
 /// The lowest value of a sample inside, which stands for what is proven inside.
 float inside_value(double threshold);
-
-/// The samples of a block.
-inline openvdb::CoordBBox samples_of(const Block& block) {
-  const Coord o = block.origin;
-  return openvdb::CoordBBox::createCube(openvdb::Coord(o.x, o.y, o.z), block.edge);
-}
 
 }  // namespace leafhull

@@ -21,6 +21,7 @@
 #include "output/file_stream.h"
 #include "output/mesh_vertex.h"
 #include "output/transaction.h"
+#include "output/vdb.h"
 #include "output/writers.h"
 #include "surface/volume.h"
 #include "text/file_name.h"

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "output/vdb.h"
+
 #include <openvdb/io/Archive.h>
 
 #include <array>
@@ -8,8 +10,6 @@
 #include <sstream>
 #include <string>
 #include <string_view>
-
-#include "output/writers.h"
 
 namespace leafhull {
 namespace {

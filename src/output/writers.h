@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <openvdb/openvdb.h>
-
 #include <ostream>
 #include <span>
 
@@ -30,9 +28,6 @@ void write_ply(const Mesh& mesh, std::ostream& stream);
 
 /// Binary STL; positions are rounded to `float`, far from the origin too.
 void write_stl(const Mesh& mesh, std::ostream& stream);
-
-/// An OpenVDB file with this one grid: the same grid gives the same bytes.
-void write_vdb(const openvdb::FloatGrid::ConstPtr& grid, std::ostream& stream);
 
 /// One binary little-endian PLY vertex per kernel, `density` holding N_iso(c_j). SPEC: 7.
 void write_kernels(std::span<const Kernel> kernels, std::span<const float> isotropic_density,

@@ -11,12 +11,12 @@
 #include <span>
 #include <utility>
 
+#include "density/field_grid.h"
 #include "surface/cell_shapes.h"
 
 namespace leafhull {
 namespace {
 
-using Brick = Field::Brick;
 using GridAccessor = openvdb::FloatGrid::ConstAccessor;
 using GridCoord = openvdb::Coord;
 using Index = std::uint32_t;
@@ -161,9 +161,9 @@ class BrickMesher {
 };
 
 BrickMesher::BrickMesher(const Field& field, const SampleBox* own)
-    : negated_(field.negated()),
+    : negated_(negated_grid(field)),
       iso_(field.iso_value()),
-      bricks_(field.bricks().begin(), field.bricks().end()),
+      bricks_(bricks_of(field).begin(), bricks_of(field).end()),
       values_(bricks_.size() + 2),
       inside_(bricks_.size() + 2),
       cells_(bricks_.size()),

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "surface/extent.h"
 
-#include <openvdb/openvdb.h>
+#include "density/field_grid.h"
 
 namespace leafhull {
 
 std::vector<Vec3d> extent_of(const Field& field) {
   const auto to_local = [](const openvdb::Coord& c) { return to_vec3d({c.x(), c.y(), c.z()}); };
   std::vector<Vec3d> points;
-  for (const Field::Brick* brick : field.bricks()) {
+  for (const Brick* brick : bricks_of(field)) {
     Box box;
     const float* const negated = brick->buffer().data();
-    for (openvdb::Index i = 0; i < Field::Brick::SIZE; ++i) {
+    for (openvdb::Index i = 0; i < Brick::SIZE; ++i) {
       if (negated[i] < field.iso_value()) box.include(to_local(brick->offsetToGlobalCoord(i)));
     }
     if (box.empty()) continue;

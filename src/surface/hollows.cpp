@@ -16,6 +16,7 @@
 #include <utility>
 #include <vector>
 
+#include "density/field_grid.h"
 #include "surface/disjoint_sets.h"
 
 namespace leafhull {
@@ -32,7 +33,7 @@ constexpr SampleBits kAll = [] {
   return bits;
 }();
 
-SampleBits below(const Field::Brick& negated, float iso) {
+SampleBits below(const Brick& negated, float iso) {
   SampleBits bits{};
   const float* value = negated.buffer().data();
   for (std::uint64_t& layer : bits) {
@@ -79,7 +80,7 @@ struct Pieces {
 
 Pieces pieces_of(const Field& field) {
   constexpr std::size_t kChunk = 64;  // bricks
-  const std::span<const Field::Brick* const> bricks = field.bricks();
+  const std::span<const Brick* const> bricks = bricks_of(field);
   const float iso = field.iso_value();
   Pieces pieces;
   pieces.first.resize(bricks.size() + 1);
@@ -146,7 +147,7 @@ struct Occupied {
 };
 
 std::vector<Occupied> occupied_by(const Field& field, const Pieces& pieces) {
-  const std::span<const Field::Brick* const> bricks = field.bricks();
+  const std::span<const Brick* const> bricks = bricks_of(field);
   std::vector<Occupied> occupied;
   occupied.reserve(bricks.size());
   for (std::size_t b = 0; b < bricks.size(); ++b) {
@@ -263,7 +264,7 @@ Field fill_hollows(Field field) {
   const auto is_hollow = [&](Node node) { return lowest[node] != 0; };
 
   std::vector<BrickPart> parts;
-  for (std::size_t b = 0; b < field.bricks().size(); ++b) {
+  for (std::size_t b = 0; b < bricks_of(field).size(); ++b) {
     BrickPart part{b, {}};
     for (Node node = pieces.first[b]; node < pieces.first[b + 1]; ++node) {
       if (!is_hollow(node)) continue;

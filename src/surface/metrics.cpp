@@ -11,6 +11,8 @@
 #include <bit>
 #include <memory>
 
+#include "density/field_grid.h"
+
 namespace leafhull {
 namespace {
 
@@ -19,7 +21,7 @@ using openvdb::MaskTree;
 using MaskAccessor = openvdb::tree::ValueAccessor<const MaskTree>;
 
 /// The samples of a brick with N >= T.
-util::NodeMask<3> inside_samples(const Field::Brick& negated, float iso) {
+util::NodeMask<3> inside_samples(const Brick& negated, float iso) {
   util::NodeMask<3> inside;
   const float* values = negated.buffer().data();
   for (openvdb::Index x = 0; x < kBrickEdge; ++x) {
@@ -32,12 +34,12 @@ util::NodeMask<3> inside_samples(const Field::Brick& negated, float iso) {
 
 /// The samples with N >= T.
 MaskTree inside_samples(const Field& field) {
-  const openvdb::FloatTree& negated = field.negated().tree();
+  const openvdb::FloatTree& negated = negated_grid(field).tree();
   MaskTree inside(negated, false, openvdb::TopologyCopy());
   std::vector<MaskTree::LeafNodeType*> leaves;
   inside.getNodes(leaves);
   tbb::parallel_for(std::size_t{0}, leaves.size(), [&, iso = field.iso_value()](std::size_t i) {
-    const Field::Brick* brick = negated.probeConstLeaf(leaves[i]->origin());
+    const Brick* brick = negated.probeConstLeaf(leaves[i]->origin());
     leaves[i]->setValueMask(inside_samples(*brick, iso));
   });
   for (const Block& block : field.inside()) inside.fill(samples_of(block), true);
@@ -98,11 +100,11 @@ VoxelCount count_brick(const MaskAccessor& inside, const openvdb::Coord& origin)
 VoxelCount count_voxels(const Field& field) {
   const MaskTree inside = inside_samples(field);
   VoxelCount count = tbb::parallel_reduce(
-      tbb::blocked_range<std::size_t>(0, field.bricks().size()), VoxelCount{},
+      tbb::blocked_range<std::size_t>(0, bricks_of(field).size()), VoxelCount{},
       [&](const tbb::blocked_range<std::size_t>& bricks, VoxelCount sum) {
         const MaskAccessor accessor(inside);
         for (std::size_t b = bricks.begin(); b < bricks.end(); ++b) {
-          sum = sum + count_brick(accessor, field.bricks()[b]->origin());
+          sum = sum + count_brick(accessor, bricks_of(field)[b]->origin());
         }
         return sum;
       },
@@ -145,7 +147,7 @@ struct Placed {
 };
 
 void place(std::span<const Vec3d> leaf_vertices, const Field& field, Placed& placed) {
-  const openvdb::FloatGrid::ConstAccessor negated = field.negated().getConstAccessor();
+  const openvdb::FloatGrid::ConstAccessor negated = negated_grid(field).getConstAccessor();
   openvdb::tree::ValueAccessor<MaskTree> cells(*placed.cells);
   const float iso = field.iso_value();
   for (const Vec3d p : leaf_vertices) {
@@ -203,7 +205,7 @@ double share_outside(const Field& field, std::span<const Vec3d> places,
   const auto outside = tbb::parallel_reduce(
       tbb::blocked_range<std::size_t>(0, places.size(), 256), std::size_t{0},
       [&](const tbb::blocked_range<std::size_t>& r, std::size_t count) {
-        const openvdb::FloatGrid::ConstAccessor negated = field.negated().getConstAccessor();
+        const openvdb::FloatGrid::ConstAccessor negated = negated_grid(field).getConstAccessor();
         for (std::size_t i = r.begin(); i < r.end(); ++i) {
           count += !is_in_shape(places[i], field, negated, dropped);
         }

@@ -7,6 +7,13 @@
 
 #include <algorithm>
 
+#include "density/field_grid.h"
+
+#ifdef LEAFHULL_OPENVDB_HAS_MESHER
+// The library holds this one compiled (cmake/dependencies.cmake looks); here it would take half a minute.
+extern template void openvdb::tools::VolumeToMesh::operator()(const openvdb::FloatGrid&);
+#endif
+
 namespace leafhull {
 namespace {
 
@@ -26,7 +33,7 @@ void copy_faces(const PolygonPool& pool, Face* to) {
 
 Polygons by_volume_to_mesh(const Field& field, double adaptivity) {
   openvdb::tools::VolumeToMesh mesher(static_cast<double>(field.iso_value()), adaptivity);
-  mesher(field.negated());
+  mesher(negated_grid(field));
 
   Polygons polygons;
   polygons.points.resize(mesher.pointListSize());

@@ -8,6 +8,7 @@
 #include <limits>
 #include <memory>
 
+#include "density/field_grid.h"
 #include "leafhull/error.h"
 
 namespace leafhull {
@@ -37,12 +38,12 @@ openvdb::FloatGrid::Ptr density_grid(const Field& field) {
   grid->setTransform(openvdb::math::Transform::createLinearTransform(field.lattice().voxel_size));
   grid->insertMeta("threshold", openvdb::DoubleMetadata(field.threshold()));
 
-  std::vector<std::unique_ptr<Field::Brick>> bricks(field.bricks().size());
+  std::vector<std::unique_ptr<Brick>> bricks(bricks_of(field).size());
   tbb::parallel_for(std::size_t{0}, bricks.size(), [&](std::size_t b) {
-    bricks[b] = std::make_unique<Field::Brick>(*field.bricks()[b]);
+    bricks[b] = std::make_unique<Brick>(*bricks_of(field)[b]);
     bricks[b]->setOrigin(bricks[b]->origin() + anchor);
     float* const values = bricks[b]->buffer().data();
-    std::transform(values, values + Field::Brick::SIZE, values, std::negate<>());
+    std::transform(values, values + Brick::SIZE, values, std::negate<>());
   });
   for (auto& brick : bricks) grid->tree().addLeaf(brick.release());
   for (const Block& block : field.inside()) {

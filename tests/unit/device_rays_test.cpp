@@ -9,6 +9,7 @@
 #include <random>
 
 #include "density/band.h"
+#include "density/field_grid.h"
 #include "device/evaluator.h"
 #include "device/ray_caster.h"
 #include "unit/density_reference.h"
@@ -195,7 +196,7 @@ TEST(Rays, PassThroughWhatIsNotDrawn) {
   Subject subject({sphere({0, 0, 0}, 10), sphere({40, 0, 0}, 10)}, 1, cpu);
   const double radius = 10 * std::sqrt(1 - std::sqrt(kThreshold));
   std::vector<Coord> drawn, others;
-  for (const Field::Brick* brick : subject.field.bricks()) {
+  for (const Brick* brick : bricks_of(subject.field)) {
     for (int s = 0; s < kBrickSamples; ++s) {
       const Coord cell{brick->origin().x() + (s >> 6), brick->origin().y() + (s >> 3 & 7),
                        brick->origin().z() + (s & 7)};

@@ -3,6 +3,7 @@
 #include <openvdb/io/File.h>
 
 #include "leafhull/output.h"
+#include "output/vdb.h"
 #include "output/writers.h"
 #include "output_sample.h"
 #include "surface/volume.h"

@@ -9,6 +9,7 @@
 #include <set>
 #include <unordered_map>
 
+#include "density/field_grid.h"
 #include "surface/brick_mesher.h"
 #include "surface/cell_shapes.h"
 #include "surface/components.h"
@@ -50,7 +51,7 @@ unsigned inside_of(const Field& field, Coord at) {
   unsigned inside = 0;
   for (int i = 0; i < 8; ++i) {
     const openvdb::Coord corner(at.x + (i >> 2 & 1), at.y + (i >> 1 & 1), at.z + (i & 1));
-    inside |= unsigned{field.negated().tree().getValue(corner) < field.iso_value()} << i;
+    inside |= unsigned{negated_grid(field).tree().getValue(corner) < field.iso_value()} << i;
   }
   return inside;
 }
@@ -206,7 +207,7 @@ TEST(BrickMesher, ProvenBlocksStandForEvaluatedOnes) {
   const Field dense = field_of(ball, 1.0, {-24, -24, -24}, {24, 24, 24});
   Field sparse({}, 1.0);
   std::vector<InsideBlock> inside;
-  for (const Field::Brick* brick : dense.bricks()) {
+  for (const Brick* brick : bricks_of(dense)) {
     const Coord o{brick->origin().x(), brick->origin().y(), brick->origin().z()};
     const Vec3d middle = to_vec3d(o) + Vec3d(4, 4, 4);
     if (length(middle) < 8) {  // the eight bricks around the origin
@@ -226,10 +227,10 @@ TEST(BrickMesher, NeitherThreadsNorTheOrderOfBricksMatter) {
   const Field field = noise(3, 0.5);
   const Polygons expected = mesh_bricks(field);
 
-  std::vector<const Field::Brick*> bricks(field.bricks().begin(), field.bricks().end());
+  std::vector<const Brick*> bricks(bricks_of(field).begin(), bricks_of(field).end());
   std::shuffle(bricks.begin(), bricks.end(), std::mt19937(1));
   Field shuffled({}, field.threshold());
-  for (const Field::Brick* brick : bricks) {
+  for (const Brick* brick : bricks) {
     const auto negated = [&](Vec3d p) {
       return -brick->getValue(openvdb::Coord::floor(openvdb::Vec3d(p.x, p.y, p.z)));
     };

@@ -9,6 +9,7 @@
 #include <random>
 #include <set>
 
+#include "density/field_grid.h"
 #include "surface/brick_mesher.h"
 #include "surface/components.h"
 #include "surface/hollows.h"
@@ -44,13 +45,13 @@ void expect_filled(const std::set<Coord>& holes) {
 /// The very same grid: nothing was altered, nor copied.
 void expect_as_it_was(const Field& field) {
   const Field filled = fill_hollows(field);
-  EXPECT_EQ(&filled.negated(), &field.negated());
+  EXPECT_EQ(&negated_grid(filled), &negated_grid(field));
   EXPECT_EQ(filled.inside().size(), field.inside().size());
 }
 
 void expect_same_values(const Field& a, const Field& b) {
-  for (auto value = a.negated().cbeginValueAll(); value; ++value) {
-    EXPECT_EQ(b.negated().tree().getValue(value.getCoord()), *value);
+  for (auto value = negated_grid(a).cbeginValueAll(); value; ++value) {
+    EXPECT_EQ(negated_grid(b).tree().getValue(value.getCoord()), *value);
   }
   EXPECT_EQ(a.inside().size(), b.inside().size());
 }
@@ -78,13 +79,13 @@ void expect_same_surface(const Field& a, const Field& b) {
 TEST(Hollows, AShellBecomesABall) {
   const Field hollow = band_of(ball_shell, {1.0}, kBallLow, kBallHigh);
   for (const Coord at : {Coord{0, 0, 0}, Coord{9, 3, 4}}) {  // two of its blocks
-    ASSERT_FALSE(hollow.negated().tree().probeConstLeaf(openvdb::Coord(at.x, at.y, at.z)));
+    ASSERT_FALSE(negated_grid(hollow).tree().probeConstLeaf(openvdb::Coord(at.x, at.y, at.z)));
     ASSERT_FALSE(is_inside(hollow, at));
   }
   const Field filled = fill_hollows(hollow);
   expect_same_surface(filled, band_of(full_ball, {1.0}, kBallLow, kBallHigh));
   for (const int x : {0, 19}) {  // a block and a sample of a brick
-    EXPECT_EQ(filled.negated().tree().getValue(openvdb::Coord(x, 0, 0)), -1) << x;
+    EXPECT_EQ(negated_grid(filled).tree().getValue(openvdb::Coord(x, 0, 0)), -1) << x;
     EXPECT_FALSE(is_inside(hollow, {x, 0, 0})) << "what others hold has changed";
   }
   for (int x = 0; x < 29; ++x) {
@@ -95,26 +96,26 @@ TEST(Hollows, AShellBecomesABall) {
 TEST(Hollows, ADenseFieldIsFilledLikeTheBand) {
   const Field band = fill_hollows(band_of(ball_shell, {1.0}, kBallLow, kBallHigh));
   const Field dense = fill_hollows(field_of(ball_shell, 1.0, kBallLow, kBallHigh));
-  EXPECT_GT(dense.bricks().size(), band.bricks().size());
+  EXPECT_GT(bricks_of(dense).size(), bricks_of(band).size());
   expect_same_surface(dense, band);
 }
 
 TEST(Hollows, BricksKeepTheirOrder) {
   const Field hollow = band_of(ball_shell, {1.0}, kBallLow, kBallHigh);
   const Field filled = fill_hollows(hollow);
-  ASSERT_EQ(filled.bricks().size(), hollow.bricks().size());
-  for (std::size_t b = 0; b < hollow.bricks().size(); ++b) {
-    EXPECT_EQ(filled.bricks()[b]->origin(), hollow.bricks()[b]->origin());
-    EXPECT_NE(filled.bricks()[b], hollow.bricks()[b]);
-    EXPECT_TRUE(filled.bricks()[b]->isDense());
+  ASSERT_EQ(bricks_of(filled).size(), bricks_of(hollow).size());
+  for (std::size_t b = 0; b < bricks_of(hollow).size(); ++b) {
+    EXPECT_EQ(bricks_of(filled)[b]->origin(), bricks_of(hollow)[b]->origin());
+    EXPECT_NE(bricks_of(filled)[b], bricks_of(hollow)[b]);
+    EXPECT_TRUE(bricks_of(filled)[b]->isDense());
   }
 }
 
 TEST(Hollows, AFieldOfItsOwnIsNotCopied) {
   Field hollow = band_of(ball_shell, {1.0}, kBallLow, kBallHigh);
-  const openvdb::FloatGrid* grid = &hollow.negated();
+  const openvdb::FloatGrid* grid = &negated_grid(hollow);
   const Field filled = fill_hollows(std::move(hollow));
-  EXPECT_EQ(&filled.negated(), grid);
+  EXPECT_EQ(&negated_grid(filled), grid);
   EXPECT_TRUE(is_inside(filled, {0, 0, 0}));
 }
 
@@ -363,7 +364,7 @@ TEST(Hollows, ThreadsDoNotMatter) {
     return fill_hollows(field);
   };
   const Field one = filled_by(1), four = filled_by(4);
-  ASSERT_NE(&one.negated(), &field.negated());
+  ASSERT_NE(&negated_grid(one), &negated_grid(field));
   expect_same_values(one, four);
 }
 

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <limits>
 
+#include "density/field_grid.h"
 #include "leafhull/error.h"
 #include "surface/brick_mesher.h"
 #include "surface/polygonise.h"
@@ -123,7 +124,7 @@ TEST_F(FieldFiles, KeepTheDensityOfTiles) {
   const auto value = [&](openvdb::Coord c) {
     const Vec3d local = read.field.lattice().local({double(c.x()), double(c.y()), double(c.z())});
     const Coord at = cell_of(local + Vec3d(0.5, 0.5, 0.5));
-    return read.field.negated().tree().getValue({at.x, at.y, at.z});
+    return negated_grid(read.field).tree().getValue({at.x, at.y, at.z});
   };
   EXPECT_EQ(value({200, 60, 60}), -3.5f);
   EXPECT_EQ(value({255, 127, 127}), -3.5f);

@@ -6,6 +6,7 @@
 #include <map>
 #include <random>
 
+#include "density/field_grid.h"
 #include "surface/components.h"
 #include "surface/metrics.h"
 #include "surface/polygonise.h"
@@ -76,7 +77,7 @@ TEST(Polygonise, AdaptivityMergesFacesAndStaysClosed) {
 TEST(Polygonise, ASampleAtTheThresholdIsInside) {
   const auto step = [](Vec3d p) { return p.x <= 3 ? 1.0 : 0.0; };
   const Field field = field_of(step, 1.0, kLow, kHigh);
-  const openvdb::FloatTree& negated = field.negated().tree();
+  const openvdb::FloatTree& negated = negated_grid(field).tree();
   EXPECT_LT(negated.getValue(openvdb::Coord(3, 0, 0)), field.iso_value());
   EXPECT_GT(negated.getValue(openvdb::Coord(4, 0, 0)), field.iso_value());
 }
@@ -119,7 +120,7 @@ TEST(Field, ServesEveryThresholdThatItWasEvaluatedFor) {
   EXPECT_EQ(high.inside()[0].origin, (Coord{16, 0, 0}));
   for (const Field& field : {low, high}) {
     const auto inside = [&](int x) {
-      return field.negated().tree().getValue(openvdb::Coord(x, 1, 1)) < field.iso_value();
+      return negated_grid(field).tree().getValue(openvdb::Coord(x, 1, 1)) < field.iso_value();
     };
     EXPECT_TRUE(inside(17));
     EXPECT_EQ(inside(9), field.threshold() == 1.0);
@@ -169,7 +170,7 @@ TEST(Metrics, ProvenBlocksCountLikeEvaluatedOnes) {
   const Field dense = field_of(ball, 1.0, {-24, -24, -24}, {24, 24, 24});
   Field sparse({}, 1.0);
   std::vector<InsideBlock> inside;
-  for (const Field::Brick* brick : dense.bricks()) {
+  for (const Brick* brick : bricks_of(dense)) {
     const Coord o{brick->origin().x(), brick->origin().y(), brick->origin().z()};
     const bool middle = std::abs(2 * o.x + 7) < 16 && std::abs(2 * o.y + 7) < 16 &&
                         std::abs(2 * o.z + 7) < 16;  // the eight bricks around the origin, inside
@@ -204,13 +205,13 @@ TEST(Metrics, CountTheCellsThatCornersTell) {
     }
   }
   std::uint64_t inside = 0, on = 0;
-  for (const Field::Brick* brick : field.bricks()) {
+  for (const Brick* brick : bricks_of(field)) {
     for (openvdb::Index s = 0; s < kBrickSamples; ++s) {
       int corners = 0;
       for (int i = 0; i < 8; ++i) {
         const openvdb::Coord at =
             brick->offsetToGlobalCoord(s).offsetBy(i >> 2 & 1, i >> 1 & 1, i & 1);
-        corners += field.negated().tree().getValue(at) < -1;
+        corners += negated_grid(field).tree().getValue(at) < -1;
       }
       inside += corners == 8;
       on += corners > 0 && corners < 8;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "density/field.h"
+#include "density/field_grid.h"
 
 namespace leafhull {
 
@@ -40,7 +41,7 @@ inline Field field_of(const std::function<double(Vec3d)>& density, double thresh
 
 inline bool is_inside(const Field& field, Coord at) {
   const openvdb::Coord c(at.x, at.y, at.z);
-  return field.negated().tree().getValue(c) < field.iso_value();
+  return negated_grid(field).tree().getValue(c) < field.iso_value();
 }
 
 /// Calls visit with every sample of [low, high).

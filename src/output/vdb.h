@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <openvdb/openvdb.h>
+
+#include <ostream>
+
+namespace leafhull {
+
+/// Writes an OpenVDB file with this one grid: the same grid gives the same bytes. What the stream
+/// throws passes through.
+void write_vdb(const openvdb::FloatGrid::ConstPtr& grid, std::ostream& stream);
+
+}  // namespace leafhull
