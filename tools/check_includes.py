@@ -1,78 +1,17 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Checks who includes whom: each room of src/, and bench/, knows only the rooms and the third-party
-libraries of its row in ROOMS, and the public headers know nothing but the standard library. No two
-headers define a type of one name, which a linker would take for one type."""
+"""Checks who includes whom: each room of src/, and bench/, knows the rooms and the third-party
+libraries of its row in src/rooms.cmake and no others, and the public headers know nothing but the
+standard library. No two headers define a type of one name, which a linker would take for one type."""
 
 import pathlib
 import re
 import sys
 
+import rooms as table
+
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-
-# Room: the rooms it may include beside itself, and the third-party libraries it may know.
-ROOMS = {
-    "colour": ((), ()),
-    "input": (("colour", "text"), ("tinygltf", "tinyobjloader", "json", "draco", "meshoptimizer", "stb", "tbb", "ufbx", "webp")),
-    "leaves": ((), ("eigen", "tbb")),
-    "foliage": (("colour", "leaves"), ("eigen", "tbb")),
-    "points": (("leaves",), ("eigen", "tbb")),
-    "density": ((), ("openvdb", "tbb")),
-    "device": (("density",), ("opencl",)),
-    "surface": (("density",), ("openvdb", "tbb")),
-    "output": (("colour", "density", "surface", "text"), ("tinygltf", "openvdb", "json")),
-    "pipeline": (("density", "device", "points", "surface"), ("tbb",)),
-    "text": ((), ()),
-    "process": ((), ()),
-    "render": (("colour", "text"), ("embree", "openexr", "stb", "tbb")),
-    "watercolour": (("colour", "device", "render", "text"), ("json",)),
-    "chart": (("process", "text"), ()),
-    "sweep": (("chart", "output"), ("json",)),
-    "study": ((), ()),
-    "page": (("chart", "output", "study", "text"), ("json", "meshoptimizer", "mustache")),
-    "picture": (
-        (
-            "density", "device", "foliage", "output", "pipeline", "process", "render", "surface",
-            "text", "watercolour",
-        ),
-        ("tbb",),
-    ),
-    "scene": (("foliage", "input", "text"), ("json", "stb")),
-    "ranks": ((), ("mpi",)),
-    "forest": (
-        ("density", "device", "output", "pipeline", "surface", "text"),
-        ("eigen", "json", "openvdb", "openssl", "tbb", "tinygltf"),
-    ),
-    "cli": (("text",), ("cli11", "json")),
-    "bench": (
-        ("density", "device", "picture", "pipeline", "points", "surface"),
-        ("cgal", "cli11", "gtest", "json", "opencl", "openvdb", "tbb"),
-    ),
-}
-
-# Library: how the paths of its headers begin.
-LIBRARIES = {
-    "cgal": ("CGAL/",),
-    "cli11": ("CLI/",),
-    "draco": ("draco/",),
-    "eigen": ("Eigen/",),
-    "embree": ("embree3/",),
-    "gtest": ("gtest/",),
-    "json": ("nlohmann/",),
-    "meshoptimizer": ("meshoptimizer.h",),
-    "mustache": ("kainjow/",),
-    "opencl": ("CL/",),
-    "mpi": ("mpi.h",),
-    "openexr": ("OpenEXR/",),
-    "openssl": ("openssl/",),
-    "openvdb": ("openvdb/",),
-    "stb": ("stb/", "stb_"),
-    "tbb": ("tbb/", "oneapi/"),
-    "tinygltf": ("tiny_gltf.h",),
-    "tinyobjloader": ("tiny_obj_loader.h",),
-    "ufbx": ("ufbx.h",),
-    "webp": ("webp/",),
-}
+LIBRARIES, ROOMS = table.read()
 
 # Of POSIX and the C library, for files, processes, signals, memory and shared libraries.
 SYSTEM = (
@@ -90,23 +29,33 @@ def is_standard(header):
 
 
 def library_of(header):
-    for name, beginnings in LIBRARIES.items():
-        if header.startswith(beginnings):
+    for name, library in LIBRARIES.items():
+        if header.startswith(library.headers):
             return name
     return None
 
 
-def fault_in_room(room, header):
-    rooms, libraries = ROOMS[room]
+def fault_in_room(name, header, used):
+    """What is wrong with the header in that room; what it uses of its row is added to `used`."""
+    room = ROOMS[name]
     first = header.split("/")[0]
-    if is_standard(header) or header.startswith(SYSTEM) or first == "leafhull":
+    if is_standard(header) or header.startswith(SYSTEM) or first in ("leafhull", name):
         return None
     if first in ROOMS and "/" in header:
-        return None if first == room or first in rooms else f"{room} may not know the room {first}"
+        used.add((name, first))
+        return None if first in room.rooms else f"{name} may not know the room {first}"
     library = library_of(header)
     if library:
-        return None if library in libraries else f"{room} may not know the library {library}"
-    return "neither leafhull's, nor standard, nor in this checker's tables"
+        used.add((name, library))
+        return None if library in room.libraries else f"{name} may not know the library {library}"
+    return "neither leafhull's, nor standard, nor in the tables of src/rooms.cmake"
+
+
+def granted_and_unused(used):
+    for name, room in ROOMS.items():
+        for known in (*room.rooms, *room.libraries):
+            if (name, known) not in used:
+                yield f"src/rooms.cmake: {name} may know {known}, and does not"
 
 
 def fault_in_public(header):
@@ -135,6 +84,7 @@ def types_of_two_headers():
 
 def main():
     faults = list(types_of_two_headers())
+    used = set()
     for path in sorted((ROOT / "include").rglob("*.h")):
         faults += check(path, fault_in_public)
     for path in sorted([*(ROOT / "src").glob("*/**/*"), *(ROOT / "bench").rglob("*")]):
@@ -142,9 +92,12 @@ def main():
             continue
         room = path.relative_to(ROOT / "src" if ROOT / "src" in path.parents else ROOT).parts[0]
         if room in ROOMS:
-            faults += check(path, lambda header: fault_in_room(room, header))
+            faults += check(path, lambda header: fault_in_room(room, header, used))
         else:
-            faults.append(f"{path.relative_to(ROOT)}: {room} has no row in tools/check_includes.py")
+            faults.append(f"{path.relative_to(ROOT)}: {room} has no row in src/rooms.cmake")
+    faults += granted_and_unused(used)
+    if table.page_with_table() != table.PAGE.read_text(encoding="utf-8"):
+        faults.append("ARCHITECTURE.md: the column \"knows\" is out of date; run tools/rooms.py")
     print("\n".join(faults), end="\n" if faults else "")
     return bool(faults)
 

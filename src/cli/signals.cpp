@@ -3,7 +3,6 @@
 
 #include <unistd.h>
 
-#include <algorithm>
 #include <array>
 #include <atomic>
 #include <csignal>
@@ -36,9 +35,7 @@ extern "C" void clean_up_and_die(int signal) {
 }  // namespace
 
 void catch_signals(std::string_view last_words) {
-  const std::size_t size = std::min(last_words.size(), words.size());
-  std::copy_n(last_words.begin(), size, words.begin());
-  words_size = size;
+  words_size = last_words.copy(words.data(), words.size());
   catch_signals(say_words);
 }
 
