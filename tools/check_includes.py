@@ -27,7 +27,8 @@ ROOMS = {
     "render": (("colour", "text"), ("embree", "openexr", "stb", "tbb")),
     "watercolour": (("colour", "device", "render", "text"), ("json",)),
     "chart": (("process", "text"), ()),
-    "sweep": (("chart", "output"), ("json",)),
+    "runs": (("output", "text"), ("json", "openssl")),
+    "sweep": (("chart", "output", "runs"), ("json",)),
     "study": ((), ()),
     "page": (("chart", "output", "study", "text"), ("json", "meshoptimizer", "mustache")),
     "picture": (
@@ -40,8 +41,8 @@ ROOMS = {
     "scene": (("foliage", "input", "text"), ("json", "stb")),
     "ranks": ((), ("mpi",)),
     "forest": (
-        ("density", "device", "output", "pipeline", "surface", "text"),
-        ("eigen", "json", "openvdb", "openssl", "tbb", "tinygltf"),
+        ("density", "device", "output", "pipeline", "runs", "surface", "text"),
+        ("eigen", "json", "openvdb", "tbb", "tinygltf"),
     ),
     "cli": (("text",), ("cli11", "json")),
     "bench": (

@@ -3,7 +3,6 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
-#include <set>
 #include <utility>
 
 #include "forest/seam_pieces.h"
@@ -11,7 +10,6 @@
 #include "forest/tile_json.h"
 #include "forest/tile_mesh.h"
 #include "forest/weld.h"
-#include "output/temporary_file.h"
 #include "output/writers.h"
 
 namespace leafhull {
@@ -25,7 +23,7 @@ constexpr int kPlacedAtOnce = 8;
 /// A tile that loses nothing is the file that it was.
 PlacedTile place_whole(const StoredTiles& tiles, std::size_t t) {
   const TileRecord& record = tiles[t];
-  const ForestFolder& folder = tiles.folder();
+  ForestFolder& folder = tiles.folder();
   if (record.triangles == 0) {
     remove_path(folder.tile(record.id));
   } else {
@@ -43,7 +41,7 @@ PlacedTile place_whole(const StoredTiles& tiles, std::size_t t) {
 PlacedTile place_rest(const StoredTiles& tiles, std::size_t t,
                       std::span<const std::uint32_t> dropped) {
   const TileRecord& record = tiles[t];
-  const ForestFolder& folder = tiles.folder();
+  ForestFolder& folder = tiles.folder();
   Seam seam = tiles.seam(t);
   Mesh mesh = tiles.mesh(t, seam);
   drop_pieces(mesh, seam, dropped);
@@ -76,7 +74,7 @@ FinishedTile finished(const TileId& id, const PlacedTile& placed) {
 
 }  // namespace
 
-FinishedForest put_in_place(const Store& store, std::span<const TileId> ids, int tile_edge,
+FinishedForest put_in_place(Store& store, std::span<const TileId> ids, int tile_edge,
                             const SmallPieces& small, const std::optional<fs::path>& single) {
   const StoredTiles tiles(store, ids, tile_edge);
   const DroppedPieces dropped = find_small_pieces(tiles, small);
@@ -91,38 +89,32 @@ FinishedForest put_in_place(const Store& store, std::span<const TileId> ids, int
       placed[t] = pieces.empty() ? place_whole(tiles, t) : place_rest(tiles, t, pieces);
     });
   });
-  std::set<fs::path> folders;
   for (std::size_t t = 0; t < tiles.size(); ++t) {
-    if (placed[t].triangles == 0) continue;
-    forest.tiles.push_back(finished(tiles[t].id, placed[t]));
-    folders.insert(tiles.folder().tile(tiles[t].id).parent_path());
+    if (placed[t].triangles > 0) forest.tiles.push_back(finished(tiles[t].id, placed[t]));
   }
-  for (const fs::path& folder : folders) sync_folder(folder);
-  if (!folders.empty()) sync_folder(tiles.folder().tiles());
+  tiles.folder().sync();
   if (single && !forest.tiles.empty()) forest.single = weld(tiles, placed, *single);
   return forest;
 }
 
-void finish_store(const Store& store, std::span<const FinishedTile> tiles,
+void finish_store(Store& store, std::span<const FinishedTile> tiles,
                   const std::map<std::string, FileRecord>& files) {
-  const ForestFolder folder(store.folder(), store.writer());
   Json others = Json::object(), rows = Json::array();
-  for (const auto& [name, record] : files) others[name] = json_of(record);
+  for (const auto& [name, record] : files) others[name] = record;
   for (const FinishedTile& tile : tiles) {
     Json row{{"file", "tiles/" + name_of(tile.id) + ".glb"}};
-    row.update(json_of(tile.mesh));
+    row.update(Json(tile.mesh));
     row["vertices"] = tile.vertices;
     row["triangles"] = tile.triangles;
     row["bounds"] = json_of(tile.bounds);
     rows.push_back(std::move(row));
   }
-  const Json manifest = sealed({{"schema", kManifestSchema},
-                                {"plan", store.plan()},
-                                {"files", std::move(others)},
-                                {"tiles", std::move(rows)}});
-  folder.write(folder.manifest(),
-               [&](std::ostream& stream) { stream << dumped(manifest, 2) << '\n'; });
-  sync_folder(store.folder());
+  ForestFolder& folder = store.folder();
+  folder.write(folder.manifest(), sealed_text({{"schema", kManifestSchema},
+                                               {"plan", store.plan()},
+                                               {"files", std::move(others)},
+                                               {"tiles", std::move(rows)}}));
+  folder.sync();
   folder.remove_work();
 }
 

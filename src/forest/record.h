@@ -2,18 +2,12 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
 
 #include "forest/tile.h"
 #include "leafhull/vec.h"
+#include "runs/checksum.h"
 
 namespace leafhull {
-
-/// A file that belongs to a forest.
-struct FileRecord {
-  std::uint64_t bytes = 0;
-  std::string sha256;  ///< hexadecimal; empty: there is no such file
-};
 
 /// What is known of a tile once it is on the disk.
 struct TileRecord {

@@ -17,7 +17,6 @@
 #include "forest/merge_none.h"
 #include "forest/plan.h"
 #include "forest/scene_control.h"
-#include "forest/sealed_json.h"
 #include "forest/store.h"
 #include "forest/tile_count.h"
 #include "forest/tileset.h"

@@ -26,8 +26,8 @@ std::string text_of(const SeamVertex& vertex) {
 
 }  // namespace
 
-StoredTiles::StoredTiles(const Store& store, std::span<const TileId> tiles, int tile_edge)
-    : folder_(store.folder(), store.writer()), tile_edge_(tile_edge) {
+StoredTiles::StoredTiles(Store& store, std::span<const TileId> tiles, int tile_edge)
+    : folder_(store.folder()), tile_edge_(tile_edge) {
   std::vector<TileId> ids(tiles.begin(), tiles.end());
   std::ranges::sort(ids);
   for (const TileId& id : ids) {

@@ -16,11 +16,11 @@ namespace leafhull {
 class StoredTiles {
  public:
   /// @throws Error internal: one is not done.
-  StoredTiles(const Store& store, std::span<const TileId> tiles, int tile_edge);
+  StoredTiles(Store& store, std::span<const TileId> tiles, int tile_edge);
 
   std::size_t size() const { return records_.size(); }
   const TileRecord& operator[](std::size_t tile) const { return *records_[tile]; }
-  const ForestFolder& folder() const { return folder_; }
+  ForestFolder& folder() const { return folder_; }
 
   // From the disk. @throws Error input: the file is damaged.
   Seam seam(std::size_t tile) const;
@@ -33,7 +33,7 @@ class StoredTiles {
   std::size_t owner(int level, const SeamVertex& vertex) const;
 
  private:
-  ForestFolder folder_;
+  ForestFolder& folder_;
   int tile_edge_;
   std::vector<const TileRecord*> records_;
 };

@@ -27,8 +27,6 @@ TileId id_of(const Json& json) {
 
 }  // namespace
 
-Json json_of(const FileRecord& file) { return {{"bytes", file.bytes}, {"sha256", file.sha256}}; }
-
 Json json_of(const Box& box) {
   if (box.empty()) return nullptr;
   return {box.low.x, box.low.y, box.low.z, box.high.x, box.high.y, box.high.z};
@@ -37,8 +35,8 @@ Json json_of(const Box& box) {
 Json json_of(const TileRecord& tile) {
   const auto& [x, y, z] = tile.id.at;
   return {{"tile", {tile.id.level, x, y, z}},
-          {"mesh", json_of(tile.mesh)},
-          {"seam", json_of(tile.seam)},
+          {"mesh", tile.mesh},
+          {"seam", tile.seam},
           {"vertices", tile.vertices},
           {"triangles", tile.triangles},
           {"own_vertices", tile.own_vertices},
@@ -53,14 +51,10 @@ Json json_of(const TileRecord& tile) {
           {"rank", tile.rank}};
 }
 
-FileRecord file_record(const Json& json) {
-  return {json.at("bytes").get<std::uint64_t>(), json.at("sha256").get<std::string>()};
-}
-
 TileRecord tile_record(const Json& json) {
   return {.id = id_of(json.at("tile")),
-          .mesh = file_record(json.at("mesh")),
-          .seam = file_record(json.at("seam")),
+          .mesh = json.at("mesh").get<FileRecord>(),
+          .seam = json.at("seam").get<FileRecord>(),
           .vertices = json.at("vertices").get<std::uint64_t>(),
           .triangles = json.at("triangles").get<std::uint64_t>(),
           .own_vertices = json.at("own_vertices").get<std::uint64_t>(),

@@ -2,16 +2,14 @@
 #pragma once
 
 #include "forest/record.h"
-#include "forest/sealed_json.h"
+#include "runs/sealed_json.h"
 
 namespace leafhull {
 
-Json json_of(const FileRecord& file);
 Json json_of(const Box& box);  ///< null where it is empty
 Json json_of(const TileRecord& tile);
 
 /// @throws nlohmann::json::exception: it is no such thing.
-FileRecord file_record(const Json& json);
 TileRecord tile_record(const Json& json);
 
 }  // namespace leafhull

@@ -10,7 +10,7 @@
 #include "output/destination.h"
 #include "output/mesh_head.h"
 #include "output/mesh_vertex.h"
-#include "output/temporary_file.h"
+#include "runs/sealed_json.h"
 #include "text/file_name.h"
 
 namespace leafhull {
@@ -184,22 +184,20 @@ FileRecord weld(const StoredTiles& tiles, std::span<const PlacedTile> placed,
     throw Error(ErrorCode::usage, "all tiles cannot be welded into " + file.string(),
                 "Name a .glb or a .ply file.");
   }
-  const ForestFolder& folder = tiles.folder();
+  ForestFolder& folder = tiles.folder();
   const Weld weld(tiles, placed);
   const auto write = [&](std::ostream& stream) {
     extension == ".ply" ? weld.write_ply(stream) : weld.write_glb(stream);
   };
   // Known to the forest before it is there, so that a restart can remove it.
   const auto announce = [&](const FileRecord& record) {
-    const Json files{
-        {"schema", kFilesSchema},
-        {"files", {{file.string(), {{"bytes", record.bytes}, {"sha256", record.sha256}}}}}};
-    folder.write(folder.files(),
-                 [&](std::ostream& stream) { stream << dumped(sealed(files), 2) << '\n'; });
+    const Json files{{file.string(), record}};
+    folder.write(folder.files(), sealed_text({{"schema", kFilesSchema}, {"files", files}}));
+    folder.sync();
   };
   const fs::path destination = resolve_destination(folder.path() / file);
   FileRecord record = folder.write(destination, write, announce);
-  sync_folder(destination.parent_path());
+  folder.sync();
   return record;
 }
 

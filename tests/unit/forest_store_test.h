@@ -6,9 +6,10 @@
 #include <fstream>
 #include <iterator>
 
-#include "forest/sealed_json.h"
 #include "forest/store.h"
 #include "leafhull/error.h"
+#include "runs/checksum.h"
+#include "runs/sealed_json.h"
 #include "unit/forest_cut.h"
 #include "unit/temporary_folder.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "forest/plan_difference.h"
+#include "runs/difference.h"
 
 #include "text/text.h"
 
@@ -18,32 +18,28 @@ Json member(const Json& of, const std::string& key) {
   return index < of.size() ? of[index] : none;
 }
 
-std::string inner_path(std::string path, const std::string& key) {
-  if (!path.empty()) path += '.';
-  return path += key;
+}  // namespace
+
+std::string Difference::text() const {
+  std::string place;
+  for (const std::string& key : path) place += (place.empty() ? "" : ".") + key;
+  return (place.empty() ? "the plan" : place) + " is " + shown(there) + " there and " +
+         shown(here) + " here";
 }
 
-std::optional<std::string> first_difference(const Json& there, const Json& here,
-                                            const std::string& path) {
+std::optional<Difference> first_difference(const Json& there, const Json& here) {
   if (there == here && there.is_discarded() == here.is_discarded()) return {};
   if (there.type() == here.type() && there.is_structured()) {
     for (const Json* keys : {&here, &there}) {
       for (const auto& [key, value] : keys->items()) {
-        const std::string inner = inner_path(path, key);
-        if (auto found = first_difference(member(there, key), member(here, key), inner)) {
+        if (auto found = first_difference(member(there, key), member(here, key))) {
+          found->path.insert(found->path.begin(), key);
           return found;
         }
       }
     }
   }
-  return (path.empty() ? "the plan" : path) + " is " + shown(there) + " there and " + shown(here) +
-         " here";
-}
-
-}  // namespace
-
-std::optional<std::string> difference(const Json& there, const Json& here) {
-  return first_difference(there, here, "");
+  return Difference{{}, there, here};
 }
 
 }  // namespace leafhull

@@ -1,36 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "output/line_file.h"
+#include "runs/sealed_lines.h"
 
 #include <fcntl.h>
 #include <sys/file.h>
 #include <unistd.h>
 
-#include <array>
 #include <cerrno>
-#include <system_error>
 #include <utility>
 
 #include "leafhull/error.h"
+#include "output/temporary_file.h"
 #include "output/write_error.h"
+#include "runs/read_file.h"
 
 namespace leafhull {
 namespace {
-
-namespace fs = std::filesystem;
-
-/// All that is left to read; errno where that fails.
-int read_all(int descriptor, std::string& text) {
-  std::array<char, 1 << 16> buffer;
-  for (;;) {
-    const ssize_t count = ::read(descriptor, buffer.data(), buffer.size());
-    if (count == 0) return 0;
-    if (count > 0) {
-      text.append(buffer.data(), static_cast<std::size_t>(count));
-    } else if (errno != EINTR) {
-      return errno;
-    }
-  }
-}
 
 std::vector<std::string> split(std::string_view text) {
   std::vector<std::string> lines;
@@ -43,7 +27,8 @@ std::vector<std::string> split(std::string_view text) {
 
 }  // namespace
 
-LineFile::LineFile(fs::path file, const std::string& rival) : file_(std::move(file)) {
+SealedLines::SealedLines(std::filesystem::path file, const std::string& rival)
+    : file_(std::move(file)) {
   descriptor_ = ::open(file_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
   if (descriptor_ < 0) throw write_error(file_, errno);
   try {
@@ -52,30 +37,32 @@ LineFile::LineFile(fs::path file, const std::string& rival) : file_(std::move(fi
                   "Wait for it, or name another folder.");
     }
     std::string text;
-    if (const int reason = read_all(descriptor_, text)) throw write_error(file_, reason);
+    const auto take = [&](std::string_view piece) { text += piece; };
+    if (const int reason = read_rest(descriptor_, take)) throw write_error(file_, reason);
     empty_ = text.empty();
     lines_ = split(text);
     size_ = static_cast<off_t>(text.rfind('\n') + 1);  // npos + 1 is 0
+    sync_folder(file_.parent_path());
   } catch (...) {
     ::close(descriptor_);
     throw;
   }
 }
 
-LineFile::~LineFile() { ::close(descriptor_); }
+SealedLines::~SealedLines() { ::close(descriptor_); }
 
-void LineFile::clear() {
+void SealedLines::clear() {
   truncate(0);
   empty_ = true;
 }
 
-void LineFile::truncate(off_t size) {
+void SealedLines::truncate(off_t size) {
   if (::ftruncate(descriptor_, size) != 0) throw write_error(file_, errno);
   size_ = size;
 }
 
-void LineFile::append(std::string_view line) {
-  const std::string text = std::string(line) + "\n";
+void SealedLines::append(Json object) {
+  const std::string text = dumped(sealed(std::move(object))) + "\n";
   truncate(size_);  // of what a crash has left behind the last whole line
   std::size_t done = 0;
   while (done < text.size()) {
@@ -94,20 +81,8 @@ void LineFile::append(std::string_view line) {
   empty_ = false;
 }
 
-std::vector<std::string> whole_lines(const fs::path& file) {
-  std::string text;
-  const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
-  int reason = errno;
-  if (descriptor >= 0) {
-    reason = read_all(descriptor, text);
-    ::close(descriptor);
-  }
-  if (reason != 0) {
-    throw Error(ErrorCode::input,
-                "cannot read " + file.string() + ": " + std::generic_category().message(reason),
-                "Check the disk and the file's permissions.");
-  }
-  return split(text);
+std::vector<std::string> whole_lines(const std::filesystem::path& file) {
+  return split(content_of(file));
 }
 
 }  // namespace leafhull

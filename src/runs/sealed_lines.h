@@ -5,30 +5,32 @@
 
 #include <filesystem>
 #include <string>
-#include <string_view>
 #include <vector>
+
+#include "runs/sealed_json.h"
 
 namespace leafhull {
 
-/// A text file that one process at a time adds lines to. A line is on the disk before the next is
-/// begun; a last one that a crash has cut short does not count, and is cut off by the next append.
-class LineFile {
+/// A journal: a text file to which one process at a time adds lines of JSON, each sealed. A line is
+/// on the disk before the next is begun; a last one that a crash has cut short does not count, and
+/// is cut off by the next append.
+class SealedLines {
  public:
   /// Opens or creates `file`, keeps other writers out of it, and reads it.
   /// @param rival what else may have it, for the error.
   /// @throws Error output: it cannot be written; usage: another process has it.
-  LineFile(std::filesystem::path file, const std::string& rival);
-  ~LineFile();
-  LineFile(const LineFile&) = delete;
-  LineFile& operator=(const LineFile&) = delete;
+  SealedLines(std::filesystem::path file, const std::string& rival);
+  ~SealedLines();
+  SealedLines(const SealedLines&) = delete;
+  SealedLines& operator=(const SealedLines&) = delete;
 
-  /// What it held when it was opened.
+  /// The whole lines that it held when it was opened, as they stood there.
   const std::vector<std::string>& lines() const { return lines_; }
   /// Whether there is anything in it, be it no whole line.
   bool empty() const { return empty_; }
 
   /// @throws Error output; the file is then as before.
-  void append(std::string_view line);
+  void append(Json object);
   void clear();
 
  private:
