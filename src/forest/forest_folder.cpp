@@ -73,12 +73,6 @@ void remove_listed(const fs::path& list, std::string_view schema, const fs::path
 
 }  // namespace
 
-std::string name_of(const TileId& tile) {
-  const auto& [x, y, z] = tile.at;
-  return std::to_string(tile.level) + "/" + std::to_string(x) + "_" + std::to_string(y) + "_" +
-         std::to_string(z);
-}
-
 std::vector<fs::path> ForestFolder::journals() const {
   std::vector<fs::path> journals;
   for (const fs::path& entry : entries_of(work())) {

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "forest/tile.h"
+#include "forest/tile_record.h"
 #include "runs/run_folder.h"
 
 namespace leafhull {
@@ -15,9 +15,6 @@ inline constexpr std::string_view kManifestSchema = "leafhull-forest/1";
 inline constexpr std::string_view kPlanSchema = "leafhull-forest-plan/1";
 inline constexpr std::string_view kControlSchema = "leafhull-forest-control/1";
 inline constexpr std::string_view kFilesSchema = "leafhull-forest-files/1";
-
-/// LEVEL/X_Y_Z, as messages and names of files have it.
-std::string name_of(const TileId& tile);
 
 /// What is where in a forest's folder, for one of its writers.
 class ForestFolder : public RunFolder {
@@ -28,7 +25,7 @@ class ForestFolder : public RunFolder {
   const std::filesystem::path& path() const { return folder_; }
   std::filesystem::path manifest() const { return folder_ / "manifest.json"; }
   std::filesystem::path tiles() const { return folder_ / "tiles"; }
-  std::filesystem::path tile(const TileId& id) const { return tiles() / (name_of(id) + ".glb"); }
+  std::filesystem::path tile(const TileId& id) const { return folder_ / file_of(id); }
 
   // Gone when the forest is finished.
   std::filesystem::path work() const { return folder_ / "work"; }

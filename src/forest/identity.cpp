@@ -24,10 +24,9 @@ std::string checksum_of(std::span<const PlacedTree> trees) {
 
 }  // namespace
 
-nlohmann::ordered_json forest_identity(const Scene& scene, std::span<const LeafSet> models,
-                                       const ForestOptions& options, const DeviceInfo& device,
-                                       double voxel_size, int edge) {
-  using Json = nlohmann::ordered_json;
+Json forest_identity(const Scene& scene, std::span<const LeafSet> models,
+                     const ForestOptions& options, const DeviceInfo& device, double voxel_size,
+                     int edge) {
   Json leaves = Json::array();
   for (std::size_t m = 0; m < models.size(); ++m) {
     leaves.push_back({{"name", scene.models[m].name}, {"sha256", checksum_of(models[m])}});

@@ -315,8 +315,7 @@ class Run {
   }
 
   void make_tile(const Work& work, Computing& computing) {
-    TileRecord record;
-    record.id = forest_.id(work);
+    TileRecord record(forest_.id(work));
     record.rank = ranks_.rank();
     const TileSurface surface = [&] {
       const Permit permit(computing);
@@ -340,18 +339,7 @@ class Run {
     summary_.tiles = forest_.tiles().size();
     for (const auto& [id, record] : store_->done()) {
       summary_.empty += record.triangles == 0;
-      summary_.rows.push_back({.level = id.level,
-                               .x = id.at.x,
-                               .y = id.at.y,
-                               .z = id.at.z,
-                               .leaf_vertices = record.leaf_vertices,
-                               .gathered = record.gathered,
-                               .evaluated_voxels = record.evaluated_voxels,
-                               .vertices = record.vertices,
-                               .triangles = record.triangles,
-                               .seconds = record.seconds,
-                               .resident_bytes = record.resident_bytes,
-                               .rank = record.rank});
+      summary_.rows.push_back(record);
     }
     summary_.remaining = summary_.tiles - std::min(summary_.tiles, store_->done().size());
   }
@@ -381,7 +369,7 @@ class Run {
          put_file(*store_, "tileset.json", [&](std::ostream& stream) { stream << tileset; })}};
     if (finished.single) files.emplace(options_.single->string(), *finished.single);
     finish_store(*store_, finished.tiles, files);
-    for (const FinishedTile& tile : finished.tiles) {
+    for (const TileRecord& tile : finished.tiles) {
       summary_.mesh_vertices += tile.vertices;
       summary_.mesh_triangles += tile.triangles;
     }
@@ -428,7 +416,7 @@ class Run {
   const Progress no_progress_;
   Stopwatch watch_{no_progress_};
   Forest forest_;
-  nlohmann::ordered_json identity_;
+  Json identity_;
   std::optional<Store> store_;
   std::mutex storing_;  ///< held to put a tile into the store
   std::mutex sharing_;  ///< held to talk to the other ranks and the user

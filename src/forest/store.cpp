@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "forest/seam_file.h"
-#include "forest/tile_json.h"
 #include "forest/tile_mesh.h"
 #include "leafhull/error.h"
 #include "output/mesh_vertex.h"
@@ -140,7 +139,7 @@ void Store::refresh() {
     for (const std::string& line : whole_lines(file)) {
       const TileRecord tile =
           tile_of(line, file.string() + ", line " + std::to_string(++number) + ",");
-      done_.insert_or_assign(tile.id, tile);
+      done_.insert_or_assign(tile.id(), tile);
     }
   }
   std::size_t lost = 0;
@@ -189,19 +188,19 @@ TileRecord Store::put(const TileSurface& surface, TileRecord record) {
   record.dropped_components = surface.dropped_components;
   record.mesh = {};
   if (!mesh.triangles.empty()) {
-    record.mesh = folder_.write(folder_.mesh(record.id),
+    record.mesh = folder_.write(folder_.mesh(record.id()),
                                 [&](std::ostream& stream) { write_glb(mesh, stream); });
   }
   record.seam = {};
   if (const Seam seam = seam_of(surface); !seam.empty()) {
-    record.seam = folder_.write(folder_.seam(record.id),
+    record.seam = folder_.write(folder_.seam(record.id()),
                                 [&](std::ostream& stream) { write_seam(seam, stream); });
   }
   folder_.sync();
   Json line{{"schema", kTileSchema}, {"plan", plan_checksum_}};
   line.update(json_of(record));
   journal_->append(std::move(line));
-  done_.insert_or_assign(record.id, record);
+  done_.insert_or_assign(record.id(), record);
   return record;
 }
 

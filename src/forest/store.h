@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "forest/forest_folder.h"
-#include "forest/record.h"
 #include "forest/tile.h"
+#include "forest/tile_record.h"
 #include "runs/sealed_json.h"
 #include "runs/sealed_lines.h"
 
@@ -84,17 +84,9 @@ struct SmallPieces {
   std::vector<ExactVolume> least;
 };
 
-/// What of a finished forest tileset.json and the manifest list.
-struct FinishedTile {
-  TileId id;
-  FileRecord mesh;  ///< at tiles/LEVEL/X_Y_Z.glb
-  std::uint64_t vertices = 0, triangles = 0;
-  Box bounds;
-};
-
 /// The result, in place.
 struct FinishedForest {
-  std::vector<FinishedTile> tiles;       ///< those with a surface, ascending
+  std::vector<TileRecord> tiles;         ///< those with a surface, as they are there, ascending
   std::uint64_t dropped_components = 0;  ///< small pieces that reached over seams
   std::optional<FileRecord> single;
 };
@@ -113,7 +105,7 @@ FinishedForest put_in_place(Store& store, std::span<const TileId> tiles, int til
 
 /// Writes manifest.json, which ends the forest, and removes work/. `files`: others that belong to
 /// it, by name, tileset.json among them.
-void finish_store(Store& store, std::span<const FinishedTile> tiles,
+void finish_store(Store& store, std::span<const TileRecord> tiles,
                   const std::map<std::string, FileRecord>& files);
 
 }  // namespace leafhull
