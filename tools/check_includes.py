@@ -40,9 +40,10 @@ ROOMS = {
     ),
     "scene": (("foliage", "input", "text"), ("json", "stb")),
     "ranks": ((), ("mpi",)),
+    "tiles": (("density", "device", "pipeline", "surface"), ("tbb",)),
     "forest": (
-        ("density", "device", "output", "pipeline", "runs", "surface", "text"),
-        ("eigen", "json", "openvdb", "tbb", "tinygltf"),
+        ("density", "output", "pipeline", "runs", "surface", "text", "tiles"),
+        ("eigen", "json", "tbb", "tinygltf"),
     ),
     "cli": (("text",), ("cli11", "json")),
     "bench": (

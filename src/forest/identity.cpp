@@ -3,11 +3,11 @@
 
 #include <string>
 
-#include "forest/level.h"
 #include "leafhull/version.h"
 #include "output/report.h"
 #include "runs/checksum.h"
 #include "runs/identity.h"
+#include "tiles/level.h"
 
 namespace leafhull {
 namespace {

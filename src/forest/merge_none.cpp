@@ -6,11 +6,11 @@
 
 #include "forest/identity.h"
 #include "forest/instances.h"
-#include "forest/level.h"
 #include "forest/store.h"
 #include "leafhull/error.h"
 #include "pipeline/memory.h"
 #include "pipeline/stopwatch.h"
+#include "tiles/level.h"
 
 namespace leafhull {
 namespace {

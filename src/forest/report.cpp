@@ -4,10 +4,10 @@
 #include <array>
 #include <string_view>
 
-#include "forest/level.h"
 #include "forest/tile_record.h"
 #include "leafhull/forest.h"
 #include "leafhull/version.h"
+#include "tiles/level.h"
 
 namespace leafhull {
 namespace {

@@ -12,19 +12,19 @@
 #include <utility>
 
 #include "density/control.h"
-#include "forest/compute_tile.h"
 #include "forest/identity.h"
 #include "forest/merge_none.h"
-#include "forest/plan.h"
-#include "forest/scene_control.h"
 #include "forest/store.h"
-#include "forest/tile_count.h"
 #include "forest/tileset.h"
 #include "leafhull/error.h"
 #include "leafhull/forest.h"
 #include "leafhull/ranks.h"
 #include "pipeline/memory.h"
 #include "pipeline/stopwatch.h"
+#include "tiles/compute_tile.h"
+#include "tiles/plan.h"
+#include "tiles/scene_control.h"
+#include "tiles/tile_count.h"
 
 namespace leafhull {
 namespace {
@@ -81,7 +81,6 @@ struct Work {
 
 /// All of a forest that does not change while its tiles are computed.
 struct Forest {
-  const Scene& scene;
   std::vector<ForestLevel> levels;
   int edge = 0;
   std::vector<TilePlan> plans;
@@ -112,7 +111,7 @@ struct Forest {
 
   TileSurface compute(const Work& work, Device& device) const {
     const auto l = static_cast<std::size_t>(work.level);
-    return compute_tile(scene, levels[l], {id(work), edge, plans[l].trees(work.tile)}, device);
+    return compute_tile(levels[l], plans[l].task(work.tile), device);
   }
 };
 
@@ -139,8 +138,7 @@ class Run {
         device_(device),
         ranks_(ranks),
         folder_(folder),
-        progress_(progress),
-        forest_{scene, {}, 0, {}} {}
+        progress_(progress) {}
 
   ForestSummary canopy() {
     prepare();
@@ -184,7 +182,7 @@ class Run {
                      folder_);
     for (int l = 0; l < options_.levels; ++l) {
       const ForestLevel* finest = l > 0 ? &forest_.levels.front() : nullptr;
-      ForestLevel level = prepare_level(l, models, uses, shapes, voxel_size, finest, device_);
+      ForestLevel level = prepare_level(l, scene_, models, shapes, voxel_size, finest, device_);
       level.scope = options_.control_scope;
       forest_.levels.push_back(std::move(level));
     }
@@ -195,9 +193,9 @@ class Run {
     }
     watch_.start("plan");
     tell("plan");
-    forest_.edge = tile_edge(scene_, forest_.levels, options_.tile, options_.memory, folder_);
+    forest_.edge = tile_edge(forest_.levels, options_.tile, options_.memory, folder_);
     for (const ForestLevel& level : forest_.levels) {
-      forest_.plans.emplace_back(scene_, level, forest_.edge);
+      forest_.plans.emplace_back(level, forest_.edge);
     }
     // Which computes surfaces, so that what cannot be has been refused before.
     for (ForestLevel& level : forest_.levels) level.least = least_volume(level, uses, device_);
@@ -230,8 +228,7 @@ class Run {
     const auto advance = [&](std::size_t done, std::size_t all) { tell("control", done, all); };
     for (std::size_t l = 0; l < forest_.levels.size(); ++l) {
       const ForestLevel* finest = l > 0 ? &forest_.levels.front() : nullptr;
-      control_over_scene(scene_, forest_.plans[l], forest_.edge, finest, forest_.levels[l], device_,
-                         ranks_, advance);
+      control_over_scene(forest_.plans[l], finest, forest_.levels[l], device_, ranks_, advance);
     }
     if (ranks_.rank() != 0) return;
     Json levels = Json::array();

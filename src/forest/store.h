@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "forest/forest_folder.h"
-#include "forest/tile.h"
 #include "forest/tile_record.h"
 #include "runs/sealed_json.h"
 #include "runs/sealed_lines.h"
+#include "tiles/tile.h"
 
 namespace leafhull {
 

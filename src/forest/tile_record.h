@@ -4,11 +4,11 @@
 #include <cstdint>
 #include <string>
 
-#include "forest/tile.h"
 #include "leafhull/forest.h"
 #include "leafhull/vec.h"
 #include "runs/checksum.h"
 #include "runs/sealed_json.h"
+#include "tiles/tile.h"
 
 namespace leafhull {
 

@@ -4,9 +4,9 @@
 #include <functional>
 #include <span>
 
-#include "forest/compute_tile.h"
-#include "forest/plan.h"
 #include "leafhull/ranks.h"
+#include "tiles/compute_tile.h"
+#include "tiles/plan.h"
 
 namespace leafhull {
 
@@ -18,8 +18,7 @@ using TilesDone = std::function<void(std::size_t done, std::size_t all)>;
 /// integers, so that neither ranks nor tiles show. Sets `scene_statistics` and `threshold`. T for a
 /// coverage is the lower end of the last of 2^16 steps per power of two that still leaves the
 /// coverage above it. Collective.
-void control_over_scene(const Scene& scene, const TilePlan& plan, int edge,
-                        const ForestLevel* finest, ForestLevel& level, Device& device, Ranks& ranks,
-                        const TilesDone& advance);
+void control_over_scene(const TilePlan& plan, const ForestLevel* finest, ForestLevel& level,
+                        Device& device, Ranks& ranks, const TilesDone& advance);
 
 }  // namespace leafhull

@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "density/control.h"
-#include "forest/tile.h"
 #include "leafhull/forest.h"
 #include "leafhull/leaves.h"
 #include "leafhull/shape.h"
 #include "pipeline/stopwatch.h"
+#include "tiles/tile.h"
 
 namespace leafhull {
 
@@ -46,7 +46,8 @@ struct ForestModel {
 /// Aggregate Detail", 2007.
 struct ForestLevel {
   int level = 0;
-  Options options;  ///< resolved
+  std::span<const PlacedTree> trees;  ///< of the scene, which outlives the level
+  Options options;                    ///< resolved
   ControlScope scope = ControlScope::model;
   double voxel_size = 0, threshold = 0;
   double reach = 0;  ///< the largest radius of all trees, scene units
@@ -93,9 +94,9 @@ double voxel_size_of(std::span<const LeafSet> models, std::span<const ModelUse> 
 /// percentage of m is taken over the leaf vertices of all trees, each tree standing alone; T itself
 /// keeps its ratio to m from level to level. An erosion is of each model: its kernels' weights are
 /// divided by its own T, and T is 1. `finest`: level 0, for the others.
-ForestLevel prepare_level(int level, std::span<const LeafSet> models,
-                          std::span<const ModelUse> uses, std::span<const Options> shapes,
-                          double voxel_size, const ForestLevel* finest, Device& device);
+ForestLevel prepare_level(int level, const Scene& scene, std::span<const LeafSet> models,
+                          std::span<const Options> shapes, double voxel_size,
+                          const ForestLevel* finest, Device& device);
 
 /// The level's `least`: the share that the options ask for, of the largest piece of the smallest
 /// tree, standing alone. Computes the surface of every model.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "forest/tile_count.h"
+#include "tiles/tile_count.h"
 
 #include <sys/statvfs.h>
 
@@ -8,8 +8,8 @@
 #include <cstdio>
 
 #include "density/lattice.h"
-#include "forest/tree_map.h"
 #include "leafhull/error.h"
+#include "tiles/tree_map.h"
 
 namespace leafhull {
 namespace {

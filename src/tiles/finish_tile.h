@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "forest/level.h"
-#include "forest/tile.h"
 #include "pipeline/evaluate.h"
 #include "surface/brick_mesher.h"
+#include "tiles/level.h"
+#include "tiles/tile.h"
 
 namespace leafhull {
 

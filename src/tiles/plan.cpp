@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "forest/plan.h"
+#include "tiles/plan.h"
 
 #include <algorithm>
 #include <cmath>
 #include <unordered_map>
 
-#include "forest/tile_count.h"
-#include "forest/tree_map.h"
 #include "leafhull/error.h"
+#include "tiles/tile_count.h"
+#include "tiles/tree_map.h"
 
 namespace leafhull {
 namespace {
@@ -84,22 +84,22 @@ double bytes_of_models(std::span<const ForestLevel> levels) {
 
 }  // namespace
 
-TilePlan::TilePlan(const Scene& scene, const ForestLevel& level, int edge) {
+TilePlan::TilePlan(const ForestLevel& level, int edge) : edge_(edge) {
   const double side = edge * level.voxel_size;
   struct Count {
     double weight = 0;
     std::size_t trees = 0, next = 0;
   };
   std::unordered_map<Coord, Count, Hash> counts;
-  for (const PlacedTree& tree : scene.trees) {
+  for (const PlacedTree& tree : level.trees) {
     const Box box = reached_box(tree, level);
     const auto kernels = static_cast<double>(level.models[tree.model].kernels.size());
     for_each_tile(tiles_in(box, side),
                   [&](Coord at) { counts[at].weight += kernels * share_in(box, at, side); });
   }
   const auto for_each_place = [&](const auto& visit) {
-    for (std::uint32_t i = 0; i < scene.trees.size(); ++i) {
-      const Box box = heard_box(reached_box(scene.trees[i], level), level);
+    for (std::uint32_t i = 0; i < level.trees.size(); ++i) {
+      const Box box = heard_box(reached_box(level.trees[i], level), level);
       for_each_tile(tiles_in(box, side), [&](Coord at) {
         if (const auto tile = counts.find(at); tile != counts.end()) visit(i, tile->second);
       });
@@ -124,15 +124,15 @@ double TilePlan::heaviest() const {
   return weights_.empty() ? 0 : *std::max_element(weights_.begin(), weights_.end());
 }
 
-int tile_edge(const Scene& scene, std::span<const ForestLevel> levels, std::optional<int> asked,
-              std::uint64_t memory, const std::filesystem::path& folder) {
+int tile_edge(std::span<const ForestLevel> levels, std::optional<int> asked, std::uint64_t memory,
+              const std::filesystem::path& folder) {
   const double left = static_cast<double>(memory) - kFixedBytes - bytes_of_models(levels) -
-                      100.0 * static_cast<double>(scene.trees.size());
+                      100.0 * static_cast<double>(levels.front().trees.size());
   double needed = 0;
   for (const int edge : asked ? std::span<const int>(&*asked, 1) : std::span<const int>(kEdges)) {
     double tiles = 0, heaviest = 0;
     for (const ForestLevel& level : levels) {
-      const TilePlan plan(scene, level, edge);
+      const TilePlan plan(level, edge);
       tiles += static_cast<double>(plan.size());
       heaviest = std::max(heaviest, plan.heaviest());
     }

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "forest/compute_tile.h"
+#include "tiles/compute_tile.h"
 
 #include <algorithm>
 #include <utility>
 
 #include "density/control.h"
-#include "forest/finish_tile.h"
-#include "forest/gather.h"
-#include "forest/plan.h"
 #include "pipeline/evaluate.h"
 #include "surface/brick_mesher.h"
+#include "tiles/finish_tile.h"
+#include "tiles/gather.h"
+#include "tiles/plan.h"
 
 namespace leafhull {
 namespace {
@@ -17,9 +17,8 @@ namespace {
 /// A tile's surroundings.
 class Place {
  public:
-  Place(const Scene& scene, const ForestLevel& level, const TileTask& task, Device& device)
-      : scene_(scene),
-        level_(level),
+  Place(const ForestLevel& level, const TileTask& task, Device& device)
+      : level_(level),
         task_(task),
         device_(device),
         lattice_(tile_lattice(task.id, level.voxel_size, task.edge)) {}
@@ -34,12 +33,11 @@ class Place {
   }
 
   std::vector<KernelRun> runs_near(const Box& box) const {
-    return leafhull::runs_near(scene_, level_, task_.trees, box);
+    return leafhull::runs_near(level_, task_.trees, box);
   }
 
   DensityFunction density(std::span<const KernelRun> runs, const KernelOf& kernel) const {
-    return {device_, placed_kernels(scene_, level_, runs, lattice_, kernel),
-            level_.options.falloff};
+    return {device_, placed_kernels(level_, runs, lattice_, kernel), level_.options.falloff};
   }
 
   /// The kernels that N is made of.
@@ -64,7 +62,7 @@ class Place {
                                   std::span<const KernelRun> runs) const {
     if (points.empty()) return {};
     Box around;
-    for (const Vec3d& p : centres_of(scene_, level_, runs)) around.include(p);
+    for (const Vec3d& p : centres_of(level_, runs)) around.include(p);
     const std::vector<KernelRun> wide = runs_near(around);
     return density(wide,
                    [this](const ForestModel& model, std::size_t j, std::size_t) {
@@ -77,7 +75,7 @@ class Place {
   }
 
   std::vector<Vec3d> local_centres(std::span<const KernelRun> runs) const {
-    std::vector<Vec3d> points = centres_of(scene_, level_, runs);
+    std::vector<Vec3d> points = centres_of(level_, runs);
     for (Vec3d& p : points) p = lattice_.local(p);
     return points;
   }
@@ -91,7 +89,7 @@ class Place {
   /// The leaf points in the tile.
   Centres own_centres(std::span<const KernelRun> runs) const {
     const std::vector<Vec3d> centres = local_centres(runs);
-    return own(centres, weights_of(scene_, level_, runs), std::vector<bool>(centres.size()));
+    return own(centres, weights_of(level_, runs), std::vector<bool>(centres.size()));
   }
 
   /// The places on leaves in the tile.
@@ -99,7 +97,7 @@ class Place {
     const Box box = box_of(own());
     const Vec3d rounding = (box.high - box.low) * 1e-3;
     PlacedSamples samples =
-        samples_in(scene_, level_, task_.trees, {box.low - rounding, box.high + rounding});
+        samples_in(level_, task_.trees, {box.low - rounding, box.high + rounding});
     for (Vec3d& p : samples.points) p = lattice_.local(p);
     return own(samples.points, samples.weights, samples.in_solid);
   }
@@ -117,7 +115,6 @@ class Place {
     return centres;
   }
 
-  const Scene& scene_;
   const ForestLevel& level_;
   const TileTask& task_;
   Device& device_;
@@ -136,9 +133,8 @@ std::vector<WeightedDensity> weighted(std::span<const float> densities,
 
 }  // namespace
 
-TileSurface compute_tile(const Scene& scene, const ForestLevel& level, const TileTask& task,
-                         Device& device) {
-  const Place place(scene, level, task, device);
+TileSurface compute_tile(const ForestLevel& level, const TileTask& task, Device& device) {
+  const Place place(level, task, device);
   const SampleBox around = samples_around(task.edge);
   const std::vector<KernelRun> runs = place.runs_near(place.box_of(around));
   TileSurface surface;
@@ -157,17 +153,17 @@ TileSurface compute_tile(const Scene& scene, const ForestLevel& level, const Til
   return surface;
 }
 
-std::vector<WeightedDensity> isotropic_density_in(const Scene& scene, const ForestLevel& level,
-                                                  const TileTask& task, Device& device) {
-  const Place place(scene, level, task, device);
+std::vector<WeightedDensity> isotropic_density_in(const ForestLevel& level, const TileTask& task,
+                                                  Device& device) {
+  const Place place(level, task, device);
   const std::vector<KernelRun> runs = place.runs_near(place.box_of(place.own()));
   const auto [points, weights, in_solid] = place.own_centres(runs);
   return weighted(place.isotropic_at(points, runs), weights, in_solid);
 }
 
-std::vector<WeightedDensity> density_in(const Scene& scene, const ForestLevel& level,
-                                        const TileTask& task, Device& device) {
-  const Place place(scene, level, task, device);
+std::vector<WeightedDensity> density_in(const ForestLevel& level, const TileTask& task,
+                                        Device& device) {
+  const Place place(level, task, device);
   const Place::Centres samples = place.own_samples();
   if (samples.points.empty()) return {};
   const std::vector<KernelRun> runs = place.runs_near(place.box_of(place.own()));

@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "forest/tile.h"
 #include "surface/polygonise.h"
+#include "tiles/tile.h"
 
 namespace leafhull {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "forest/exact_volume.h"
+#include "tiles/exact_volume.h"
 
 #include <tbb/parallel_for.h>
 

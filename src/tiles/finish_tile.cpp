@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "forest/finish_tile.h"
+#include "tiles/finish_tile.h"
 
 #include <tbb/parallel_for.h>
 
@@ -7,8 +7,8 @@
 #include <cmath>
 #include <unordered_map>
 
-#include "forest/exact_volume.h"
 #include "surface/components.h"
+#include "tiles/exact_volume.h"
 
 namespace leafhull {
 namespace {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "forest/gather.h"
+#include "tiles/gather.h"
 
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <utility>
 
-#include "forest/tree_map.h"
+#include "tiles/tree_map.h"
 
 namespace leafhull {
 namespace {
@@ -21,13 +21,12 @@ bool apart(const Box& a, const Box& b, double reach) {
 
 /// visit(map, model, j, at) for every kernel of the runs.
 template <class Visit>
-void for_each_kernel(const Scene& scene, const ForestLevel& level, std::span<const KernelRun> runs,
-                     Visit&& visit) {
+void for_each_kernel(const ForestLevel& level, std::span<const KernelRun> runs, Visit&& visit) {
   std::vector<std::size_t> first{0};
   for (const KernelRun& run : runs) first.push_back(first.back() + (run.end - run.first));
   tbb::parallel_for(std::size_t{0}, runs.size(), [&](std::size_t r) {
     const KernelRun& run = runs[r];
-    const PlacedTree& tree = scene.trees[run.tree];
+    const PlacedTree& tree = level.trees[run.tree];
     const TreeMap map(tree);
     for (std::size_t j = run.first; j < run.end; ++j) {
       visit(map, level.models[tree.model], j, first[r] + (j - run.first));
@@ -37,11 +36,11 @@ void for_each_kernel(const Scene& scene, const ForestLevel& level, std::span<con
 
 }  // namespace
 
-std::vector<KernelRun> runs_near(const Scene& scene, const ForestLevel& level,
-                                 std::span<const std::uint32_t> trees, const Box& box) {
+std::vector<KernelRun> runs_near(const ForestLevel& level, std::span<const std::uint32_t> trees,
+                                 const Box& box) {
   std::vector<std::vector<KernelRun>> found(trees.size());
   tbb::parallel_for(std::size_t{0}, trees.size(), [&](std::size_t t) {
-    const PlacedTree& tree = scene.trees[trees[t]];
+    const PlacedTree& tree = level.trees[trees[t]];
     const ForestModel& model = level.models[tree.model];
     const TreeMap map(tree);
     std::vector<KernelRun>& runs = found[t];
@@ -67,31 +66,29 @@ std::size_t count(std::span<const KernelRun> runs) {
   return sum;
 }
 
-std::vector<Vec3d> centres_of(const Scene& scene, const ForestLevel& level,
-                              std::span<const KernelRun> runs) {
+std::vector<Vec3d> centres_of(const ForestLevel& level, std::span<const KernelRun> runs) {
   std::vector<Vec3d> centres(count(runs));
-  for_each_kernel(scene, level, runs,
+  for_each_kernel(level, runs,
                   [&](const TreeMap& map, const ForestModel& model, std::size_t j, std::size_t at) {
                     centres[at] = map(model.leaves[j].position);
                   });
   return centres;
 }
 
-std::vector<std::uint64_t> weights_of(const Scene& scene, const ForestLevel& level,
-                                      std::span<const KernelRun> runs) {
+std::vector<std::uint64_t> weights_of(const ForestLevel& level, std::span<const KernelRun> runs) {
   std::vector<std::uint64_t> weights(count(runs));
-  for_each_kernel(scene, level, runs,
+  for_each_kernel(level, runs,
                   [&](const TreeMap& map, const ForestModel& model, std::size_t j, std::size_t at) {
                     weights[at] = weight_of(model.leaves[j].area, map.area(), level.area_unit);
                   });
   return weights;
 }
 
-PlacedSamples samples_in(const Scene& scene, const ForestLevel& level,
-                         std::span<const std::uint32_t> trees, const Box& box) {
+PlacedSamples samples_in(const ForestLevel& level, std::span<const std::uint32_t> trees,
+                         const Box& box) {
   PlacedSamples found;
   for (const std::uint32_t t : trees) {
-    const PlacedTree& tree = scene.trees[t];
+    const PlacedTree& tree = level.trees[t];
     const ForestModel& model = level.models[tree.model];
     const TreeMap map(tree);
     if (apart(map(model.bounds), box, model.reach * map.stretch())) continue;
@@ -108,11 +105,10 @@ PlacedSamples samples_in(const Scene& scene, const ForestLevel& level,
   return found;
 }
 
-KernelSet placed_kernels(const Scene& scene, const ForestLevel& level,
-                         std::span<const KernelRun> runs, const Lattice& lattice,
-                         const KernelOf& kernel) {
+KernelSet placed_kernels(const ForestLevel& level, std::span<const KernelRun> runs,
+                         const Lattice& lattice, const KernelOf& kernel) {
   const auto hash = [&] {
-    const std::vector<Vec3d> centres = centres_of(scene, level, runs);
+    const std::vector<Vec3d> centres = centres_of(level, runs);
     return std::make_shared<const SpatialHash>(
         centres, Lattice::near(lattice.world({0, 0, 0}), level.reach));
   }();
@@ -121,7 +117,7 @@ KernelSet placed_kernels(const Scene& scene, const ForestLevel& level,
   tbb::parallel_for(std::size_t{0}, order.size(),
                     [&](std::size_t r) { rank[order[r]] = static_cast<std::uint32_t>(r); });
   std::vector<LatticeKernel> kernels(rank.size());
-  for_each_kernel(scene, level, runs,
+  for_each_kernel(level, runs,
                   [&](const TreeMap& map, const ForestModel& model, std::size_t j, std::size_t at) {
                     kernels[rank[at]] = map(kernel(model, j, at), lattice, level.options.falloff);
                   });

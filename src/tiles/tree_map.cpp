@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "forest/tree_map.h"
+#include "tiles/tree_map.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "forest/level.h"
+#include "tiles/level.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
 
-#include "forest/exact_volume.h"
-#include "forest/tree_map.h"
 #include "leafhull/error.h"
 #include "pipeline/evaluate.h"
 #include "pipeline/grid.h"
 #include "pipeline/sliders.h"
 #include "surface/brick_mesher.h"
+#include "tiles/exact_volume.h"
+#include "tiles/tree_map.h"
 
 namespace leafhull {
 namespace {
@@ -252,11 +252,13 @@ double voxel_size_of(std::span<const LeafSet> models, std::span<const ModelUse> 
   return side / *shapes.front().resolution;
 }
 
-ForestLevel prepare_level(int number, std::span<const LeafSet> models,
-                          std::span<const ModelUse> uses, std::span<const Options> shapes,
-                          double voxel_size, const ForestLevel* finest, Device& device) {
+ForestLevel prepare_level(int number, const Scene& scene, std::span<const LeafSet> models,
+                          std::span<const Options> shapes, double voxel_size,
+                          const ForestLevel* finest, Device& device) {
+  const std::vector<ModelUse> uses = model_uses(scene);
   ForestLevel level;
   level.level = number;
+  level.trees = scene.trees;
   level.options = shapes.front();
   level.voxel_size = std::ldexp(voxel_size, number);
   level.models.resize(models.size());

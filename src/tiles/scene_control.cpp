@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "forest/scene_control.h"
+#include "tiles/scene_control.h"
 
 #include <algorithm>
 #include <bit>
@@ -149,14 +149,12 @@ double threshold_of(const ForestLevel& level, const ForestLevel* finest, double 
 
 }  // namespace
 
-void control_over_scene(const Scene& scene, const TilePlan& plan, int edge,
-                        const ForestLevel* finest, ForestLevel& level, Device& device, Ranks& ranks,
-                        const TilesDone& advance) {
-  const auto task = [&](std::size_t t) { return TileTask{plan.tiles()[t], edge, plan.trees(t)}; };
+void control_over_scene(const TilePlan& plan, const ForestLevel* finest, ForestLevel& level,
+                        Device& device, Ranks& ranks, const TilesDone& advance) {
   Moments mine;
   Histogram isotropic;
   for_each_tile(plan, ranks, advance, [&](std::size_t t) {
-    for (const WeightedDensity& n : isotropic_density_in(scene, level, task(t), device)) {
+    for (const WeightedDensity& n : isotropic_density_in(level, plan.task(t), device)) {
       mine.add(n);
       isotropic.add(n);
     }
@@ -174,7 +172,7 @@ void control_over_scene(const Scene& scene, const TilePlan& plan, int edge,
   }
   Histogram histogram, solids;
   for_each_tile(plan, ranks, advance, [&](std::size_t t) {
-    for (const WeightedDensity& n : density_in(scene, level, task(t), device)) {
+    for (const WeightedDensity& n : density_in(level, plan.task(t), device)) {
       (n.in_solid ? solids : histogram).add(n);
     }
   });
