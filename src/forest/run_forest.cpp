@@ -72,6 +72,16 @@ void check(const ForestOptions& options) {
   }
 }
 
+/// visit(name, number) for all that control over the scene has found for a level.
+template <class Level, class Visit>
+void for_each_found(Level& level, const Visit& visit) {
+  visit("mean", level.scene_statistics->mean);
+  visit("variance", level.scene_statistics->variance);
+  visit("p1", level.scene_statistics->p1);
+  visit("p2", level.scene_statistics->p2);
+  visit("threshold", level.threshold);
+}
+
 /// A tile of one of the levels.
 struct Work {
   int level;
@@ -233,11 +243,8 @@ class Run {
     if (ranks_.rank() != 0) return;
     Json levels = Json::array();
     for (const ForestLevel& level : forest_.levels) {
-      levels.push_back({{"mean", level.scene_statistics->mean},
-                        {"variance", level.scene_statistics->variance},
-                        {"p1", level.scene_statistics->p1},
-                        {"p2", level.scene_statistics->p2},
-                        {"threshold", level.threshold}});
+      Json& kept = levels.emplace_back();
+      for_each_found(level, [&](const char* name, double found) { kept[name] = found; });
     }
     store_->keep_control(levels);
   }
@@ -250,13 +257,9 @@ class Run {
     if (kept.empty()) return false;
     const Json levels = Json::parse(kept);
     for (std::size_t l = 0; l < forest_.levels.size(); ++l) {
-      ForestLevel& level = forest_.levels[l];
-      const Json& kept_level = levels.at(l);
-      level.scene_statistics = DensityStatistics{.mean = kept_level.at("mean"),
-                                                 .variance = kept_level.at("variance"),
-                                                 .p1 = kept_level.at("p1"),
-                                                 .p2 = kept_level.at("p2")};
-      level.threshold = kept_level.at("threshold");
+      forest_.levels[l].scene_statistics.emplace();
+      for_each_found(forest_.levels[l],
+                     [&](const char* name, double& found) { levels.at(l).at(name).get_to(found); });
     }
     return true;
   }
@@ -376,7 +379,7 @@ class Run {
     const bool surface = std::ranges::any_of(store_->done(), [](const auto& tile) {
       return tile.second.triangles > 0 || tile.second.dropped_components > 0;
     });
-    std::filesystem::remove_all(folder_ / "work");
+    store_->folder().remove_work();
     if (surface) {
       throw Error(ErrorCode::empty, "the forest is empty: every piece of its surface is small",
                   "Lower --min-component.");
