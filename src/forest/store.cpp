@@ -204,8 +204,8 @@ TileRecord Store::put(const TileSurface& surface, TileRecord record) {
   return record;
 }
 
-FileRecord put_file(Store& store, const std::string& name, const RunFolder::Writer& writer) {
-  FileRecord record = store.folder().write(store.folder().path() / name, writer);
+FileRecord put_file(Store& store, const std::string& name, const RunFolder::Fill& fill) {
+  FileRecord record = store.folder().write(store.folder().path() / name, fill);
   store.folder().sync();
   return record;
 }

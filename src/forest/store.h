@@ -76,7 +76,7 @@ class Store {
 
 /// Writes a file of the result into the folder, by way of work/, so that nothing half-written
 /// outlives the forest. @throws Error output.
-FileRecord put_file(Store& store, const std::string& name, const RunFolder::Writer& writer);
+FileRecord put_file(Store& store, const std::string& name, const RunFolder::Fill& fill);
 
 /// Pieces of surface that are to be dropped because all tiles' parts together are small.
 struct SmallPieces {

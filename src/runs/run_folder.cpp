@@ -43,7 +43,7 @@ void RunFolder::make_folder(const fs::path& folder) {
   unsynced_.insert(folder.parent_path());
 }
 
-TemporaryFile RunFolder::filled(const fs::path& file, const Writer& writer, FileRecord& record) {
+TemporaryFile RunFolder::filled(const fs::path& file, const Fill& fill, FileRecord& record) {
   make_folder(file.parent_path());
   make_folder(unfinished_);
   const bool near = on_one_file_system(unfinished_, file.parent_path());
@@ -51,7 +51,7 @@ TemporaryFile RunFolder::filled(const fs::path& file, const Writer& writer, File
   temporary.copy_permissions(file);
   FileStream stream(temporary.descriptor(), file);
   ChecksumStream checked(stream);
-  writer(checked);
+  fill(checked);
   stream.flush();
   temporary.finish(file);
   record = checked.record();
@@ -63,10 +63,10 @@ void RunFolder::named(const fs::path& file) {
   unsynced_.insert(file.parent_path());
 }
 
-FileRecord RunFolder::write(const fs::path& file, const Writer& writer,
+FileRecord RunFolder::write(const fs::path& file, const Fill& fill,
                             const std::function<void(const FileRecord&)>& before) {
   FileRecord record;
-  const TemporaryFile temporary = filled(file, writer, record);
+  const TemporaryFile temporary = filled(file, fill, record);
   if (before) before(record);
   rename(temporary.path(), file);
   named(file);

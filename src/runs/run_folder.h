@@ -19,20 +19,20 @@ namespace leafhull {
 /// the disk before it has its name. Folders are made where they are missing. Any thread may call.
 class RunFolder {
  public:
-  /// @param unfinished the folder of files that are being written, which no result is in.
+  /// @param unfinished the folder that files are written in before they get their names.
   /// @param writer     tells the unfinished files of this process from those of others.
   RunFolder(std::filesystem::path unfinished, std::string writer)
       : unfinished_(std::move(unfinished)), writer_(std::move(writer)) {}
 
   const std::string& writer() const { return writer_; }
 
-  using Writer = std::function<void(std::ostream&)>;
+  using Fill = std::function<void(std::ostream&)>;
 
   /// Writes `file`, whose permissions stay where it exists. Where it is on another file system than
   /// the unfinished files, it is written beside its place.
   /// @param before called once the content is on the disk.
   /// @throws Error output; the file is then as before.
-  FileRecord write(const std::filesystem::path& file, const Writer& writer,
+  FileRecord write(const std::filesystem::path& file, const Fill& fill,
                    const std::function<void(const FileRecord&)>& before = {});
   FileRecord write(const std::filesystem::path& file, std::string_view bytes);
   /// Writes `file` unless it is there; its name is on the disk then. @throws Error output.
@@ -52,7 +52,7 @@ class RunFolder {
   void remove_unfinished() const;
 
  private:
-  TemporaryFile filled(const std::filesystem::path& file, const Writer& writer, FileRecord& record);
+  TemporaryFile filled(const std::filesystem::path& file, const Fill& fill, FileRecord& record);
   void named(const std::filesystem::path& file);
 
   std::filesystem::path unfinished_;
