@@ -84,8 +84,8 @@ void for_each_found(Level& level, const Visit& visit) {
 
 /// A tile of one of the levels.
 struct Work {
-  int level;
-  std::size_t tile;  ///< in its plan
+  const ForestLevel* level;
+  TileTask task;
   double weight;
 };
 
@@ -107,21 +107,12 @@ struct Forest {
     std::vector<Work> all;
     for (std::size_t l = 0; l < plans.size(); ++l) {
       for (std::size_t t = 0; t < plans[l].size(); ++t) {
-        all.push_back({static_cast<int>(l), t, plans[l].weight(t)});
+        all.push_back({&levels[l], plans[l].task(t), plans[l].weight(t)});
       }
     }
     std::stable_sort(all.begin(), all.end(),
                      [](const Work& a, const Work& b) { return a.weight > b.weight; });
     return all;
-  }
-
-  TileId id(const Work& work) const {
-    return plans[static_cast<std::size_t>(work.level)].tiles()[work.tile];
-  }
-
-  TileSurface compute(const Work& work, Device& device) const {
-    const auto l = static_cast<std::size_t>(work.level);
-    return compute_tile(levels[l], plans[l].task(work.tile), device);
   }
 };
 
@@ -277,7 +268,7 @@ class Run {
       work = std::move(mine);
     }
     all_ = work.size();
-    std::erase_if(work, [&](const Work& w) { return store_->done().contains(forest_.id(w)); });
+    std::erase_if(work, [&](const Work& w) { return store_->done().contains(w.task.id); });
     return work;
   }
 
@@ -315,12 +306,12 @@ class Run {
   }
 
   void make_tile(const Work& work, Computing& computing) {
-    TileRecord record(forest_.id(work));
+    TileRecord record(work.task.id);
     record.rank = ranks_.rank();
     const TileSurface surface = [&] {
       const Permit permit(computing);
       const auto start = std::chrono::steady_clock::now();
-      TileSurface computed = forest_.compute(work, device_);
+      TileSurface computed = compute_tile(*work.level, work.task, device_);
       const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
       record.seconds = elapsed.count();
       record.resident_bytes = resident_memory();

@@ -41,19 +41,6 @@ FileRecord Checksum::record() {
   return record;
 }
 
-ChecksumStream::Buffer::int_type ChecksumStream::Buffer::overflow(int_type character) {
-  if (traits_type::eq_int_type(character, traits_type::eof())) return 0;
-  const char byte = traits_type::to_char_type(character);
-  xsputn(&byte, 1);
-  return character;
-}
-
-std::streamsize ChecksumStream::Buffer::xsputn(const char* data, std::streamsize size) {
-  checksum.add({data, static_cast<std::size_t>(size)});
-  next.write(data, size);
-  return size;
-}
-
 FileRecord record_of(std::string_view bytes) {
   Checksum checksum;
   checksum.add(bytes);

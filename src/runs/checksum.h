@@ -4,8 +4,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
-#include <ostream>
-#include <streambuf>
 #include <string>
 #include <string_view>
 
@@ -32,27 +30,6 @@ class Checksum {
  private:
   std::unique_ptr<evp_md_ctx_st, void (*)(evp_md_ctx_st*)> digest_;
   std::uint64_t bytes_ = 0;
-};
-
-/// A stream that passes what it is given on to another and takes its checksum. It does not seek.
-class ChecksumStream : public std::ostream {
- public:
-  explicit ChecksumStream(std::ostream& next) : std::ostream(nullptr), buffer_(next) {
-    rdbuf(&buffer_);
-    exceptions(std::ios_base::badbit | std::ios_base::failbit);
-  }
-  FileRecord record() { return buffer_.checksum.record(); }
-
- private:
-  struct Buffer : std::streambuf {
-    explicit Buffer(std::ostream& stream) : next(stream) {}
-    int_type overflow(int_type character) override;
-    std::streamsize xsputn(const char* data, std::streamsize size) override;
-
-    std::ostream& next;
-    Checksum checksum;
-  };
-  Buffer buffer_;
 };
 
 FileRecord record_of(std::string_view bytes);

@@ -43,18 +43,16 @@ void RunFolder::make_folder(const fs::path& folder) {
   unsynced_.insert(folder.parent_path());
 }
 
-TemporaryFile RunFolder::filled(const fs::path& file, const Fill& fill, FileRecord& record) {
+TemporaryFile RunFolder::filled(const fs::path& file, const Fill& fill) {
   make_folder(file.parent_path());
   make_folder(unfinished_);
   const bool near = on_one_file_system(unfinished_, file.parent_path());
   TemporaryFile temporary(near ? unfinished_ / (writer_ + "." + file.filename().string()) : file);
   temporary.copy_permissions(file);
   FileStream stream(temporary.descriptor(), file);
-  ChecksumStream checked(stream);
-  fill(checked);
+  fill(stream);
   stream.flush();
   temporary.finish(file);
-  record = checked.record();
   return temporary;
 }
 
@@ -65,8 +63,8 @@ void RunFolder::named(const fs::path& file) {
 
 FileRecord RunFolder::write(const fs::path& file, const Fill& fill,
                             const std::function<void(const FileRecord&)>& before) {
-  FileRecord record;
-  const TemporaryFile temporary = filled(file, fill, record);
+  const TemporaryFile temporary = filled(file, fill);
+  FileRecord record = record_of_file(temporary.path());
   if (before) before(record);
   rename(temporary.path(), file);
   named(file);
@@ -78,9 +76,7 @@ FileRecord RunFolder::write(const fs::path& file, std::string_view bytes) {
 }
 
 void RunFolder::write_once(const fs::path& file, std::string_view bytes) {
-  FileRecord record;
-  const TemporaryFile temporary = filled(
-      file, [&](std::ostream& stream) { stream << bytes; }, record);
+  const TemporaryFile temporary = filled(file, [&](std::ostream& stream) { stream << bytes; });
   int reason = ::link(temporary.path(), file.c_str()) == 0 ? 0 : errno;
   if (reason != 0 && reason != EEXIST) {  // no second names on this file system
     const int renamed =

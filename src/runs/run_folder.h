@@ -52,7 +52,7 @@ class RunFolder {
   void remove_unfinished() const;
 
  private:
-  TemporaryFile filled(const std::filesystem::path& file, const Fill& fill, FileRecord& record);
+  TemporaryFile filled(const std::filesystem::path& file, const Fill& fill);
   void named(const std::filesystem::path& file);
 
   std::filesystem::path unfinished_;
