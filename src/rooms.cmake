@@ -24,7 +24,7 @@ library(ufbx "ufbx (optional)" TARGETS HEADERS ufbx.h)
 library(webp "WebP" TARGETS WebP::webp HEADERS webp/)
 
 # room(NAME PART; ROOMS that it may include; LIBRARIES that it alone may know). A part other than CORE is
-# left out of the build where LEAFHULL_<PART> is off. OpenVDB's rooms come first: the loader looks its
+# left out of the build where LEAFHULL_<PART> is off; RUNS is of both STUDY and FOREST. OpenVDB's rooms come first: the loader looks its
 # 69,000 symbols up in the order of the libraries.
 room(density CORE ROOMS LIBRARIES openvdb tbb)
 room(surface CORE ROOMS density LIBRARIES openvdb tbb)
@@ -45,13 +45,15 @@ room(watercolour RENDER ROOMS colour device render text LIBRARIES json)
 room(picture RENDER
      ROOMS foliage input output pipeline process render surface text watercolour
      LIBRARIES json tbb)
-room(sweep STUDY ROOMS chart output LIBRARIES json)
+room(runs RUNS ROOMS output text LIBRARIES json openssl)
+room(sweep STUDY ROOMS chart output runs LIBRARIES)
 room(study STUDY ROOMS LIBRARIES)
 room(page STUDY ROOMS chart output study text LIBRARIES json meshoptimizer mustache)
 room(scene FOREST ROOMS foliage input text LIBRARIES json stb)
 room(ranks FOREST ROOMS LIBRARIES mpi)
-room(forest FOREST ROOMS density output pipeline surface text
-     LIBRARIES eigen json openssl tbb tinygltf)
+room(tiles FOREST ROOMS density pipeline surface LIBRARIES tbb)
+room(forest FOREST ROOMS density output pipeline runs surface text tiles
+     LIBRARIES eigen tbb tinygltf)
 room(cli COMMAND ROOMS text LIBRARIES cli11 json)
 room(bench BENCH ROOMS density device picture pipeline points surface
      LIBRARIES cgal cli11 gtest json openvdb tbb)

@@ -1,111 +1,133 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "forest/forest_folder.h"
 
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
-#include <atomic>
-#include <cerrno>
 #include <cstdio>
-#include <fstream>
-#include <sstream>
 #include <system_error>
 
-#include "forest/checksum.h"
 #include "leafhull/error.h"
-#include "output/file_stream.h"
-#include "output/temporary_file.h"
 #include "output/write_error.h"
+#include "runs/read_file.h"
+#include "runs/sealed_json.h"
+#include "runs/sealed_lines.h"
+#include "text/file_name.h"
 
 namespace leafhull {
 namespace {
 
 namespace fs = std::filesystem;
 
-void make_folder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) throw write_error(folder, error.value());
+constexpr const char* kNameAnother = "Name another folder, or move it away.";
+
+bool is_journal(const std::string& name) {
+  return name.starts_with("journal-") && name.ends_with(".jsonl");
 }
 
-bool on_one_file_system(const fs::path& a, const fs::path& b) {
-  struct stat status_a {
-  }, status_b{};
-  return ::stat(a.c_str(), &status_a) == 0 && ::stat(b.c_str(), &status_b) == 0 &&
-         status_a.st_dev == status_b.st_dev;
+/// Whether it is of a tile: LEVEL/X_Y_Z with a suffix.
+bool is_tile_file(const fs::path& file) {
+  const std::string name = file.parent_path().filename().string() + "/" + file.stem().string();
+  const std::string extension = file.extension().string();
+  TileId id;
+  return (extension == ".glb" || extension == ".seam" || extension == ".kept") &&
+         std::sscanf(name.c_str(), "%d/%d_%d_%d", &id.level, &id.at.x, &id.at.y, &id.at.z) == 4 &&
+         name_of(id) == name;
+}
+
+bool is_level(const std::string& name) {
+  return !name.empty() && name.find_first_not_of("0123456789") == std::string::npos;
+}
+
+/// LEVEL/X_Y_Z.* and the folders that are then empty.
+void remove_tiles(const fs::path& folder) {
+  for (const fs::path& level : entries_of(folder)) {
+    if (!is_level(level.filename().string())) continue;
+    for (const fs::path& file : entries_of(level)) {
+      if (is_tile_file(file)) remove_path(file);
+    }
+    remove_path(level);
+  }
+}
+
+/// Even a damaged file says whose it is.
+void check_schema(const fs::path& file, std::string_view schema) {
+  if (!fs::exists(file) || content_of(file).find(schema) != std::string::npos) return;
+  throw Error(ErrorCode::usage, file.string() + " is of no forest", kNameAnother);
+}
+
+/// Of what `list` names, the shapes beside the tiles, as long as they are what was written.
+void remove_listed(const fs::path& list, std::string_view schema, const fs::path& folder) {
+  Json files;
+  try {
+    files = unsealed_file(list, schema, "").at("files");
+  } catch (const Error&) {
+    return;  // missing or damaged: then nothing tells what is ours
+  }
+  for (const auto& [name, record] : files.items()) {
+    const fs::path file = folder / name;
+    const std::string extension = lower_extension(file);
+    if ((extension == ".glb" || extension == ".ply") && fs::is_regular_file(file) &&
+        record_of_file(file).sha256 == record.at("sha256").get<std::string>()) {
+      remove_path(file);
+    }
+  }
 }
 
 }  // namespace
 
-std::string name_of(const TileId& tile) {
-  const auto& [x, y, z] = tile.at;
-  return std::to_string(tile.level) + "/" + std::to_string(x) + "_" + std::to_string(y) + "_" +
-         std::to_string(z);
-}
-
-FileRecord ForestFolder::write(const fs::path& file,
-                               const std::function<void(std::ostream&)>& writer,
-                               const std::function<void(const FileRecord&)>& before) const {
-  make_folder(file.parent_path());
-  make_folder(work());
-  TemporaryFile temporary(on_one_file_system(work(), file.parent_path())
-                              ? work() / (writer_ + "." + file.filename().string())
-                              : file);
-  temporary.copy_permissions(file);
-  FileStream stream(temporary.descriptor(), file);
-  ChecksumStream checked(stream);
-  writer(checked);
-  stream.flush();
-  temporary.finish(file);
-  FileRecord record = checked.record();
-  if (before) before(record);
-  if (std::rename(temporary.path(), file.c_str()) != 0) throw write_error(file, errno);
-  return record;
-}
-
-void ForestFolder::link(const fs::path& file, const fs::path& name) const {
-  make_folder(name.parent_path());
-  static std::atomic<unsigned> count{0};  // several threads put tiles in place
-  const fs::path temporary = work() / ("." + writer_ + "." + std::to_string(count++) + ".tmp");
-  ::unlink(temporary.c_str());  // of a process that was killed
-  if (::link(file.c_str(), temporary.c_str()) != 0) {
-    write(name, [&](std::ostream& stream) { stream << content_of(file); });
-    return;
+std::vector<fs::path> ForestFolder::journals() const {
+  std::vector<fs::path> journals;
+  for (const fs::path& entry : entries_of(work())) {
+    if (is_journal(entry.filename().string())) journals.push_back(entry);
   }
-  const int reason = std::rename(temporary.c_str(), name.c_str()) == 0 ? 0 : errno;
-  ::unlink(temporary.c_str());  // where both were one file already, the rename has left it
-  if (reason != 0) throw write_error(name, reason);
+  return journals;
 }
 
-void ForestFolder::write_once(const fs::path& file, const std::string& text) const {
-  make_folder(file.parent_path());
-  TemporaryFile temporary(file.parent_path() / (writer_ + "." + file.filename().string()));
-  FileStream stream(temporary.descriptor(), file);
-  stream << text << std::flush;
-  temporary.finish(file);
-  int reason = ::link(temporary.path(), file.c_str()) == 0 ? 0 : errno;
-  if (reason != 0 && reason != EEXIST) {  // no second names on this file system
-    const int renamed =
-        ::renameat2(AT_FDCWD, temporary.path(), AT_FDCWD, file.c_str(), RENAME_NOREPLACE);
-    reason = renamed == 0 ? 0 : errno;
+void ForestFolder::check_ours() const {
+  if (fs::exists(manifest())) return;  // which is checked when it is read
+  if (!fs::exists(work())) {
+    for (const char* name : {"tiles", "tileset.json", "forest.glb"}) {
+      if (!fs::exists(folder_ / name)) continue;
+      throw Error(ErrorCode::usage, (folder_ / name).string() + " is there already", kNameAnother);
+    }
   }
-  if (reason != 0 && reason != EEXIST) throw write_error(file, reason);
-  sync_folder(file.parent_path());
+  for (const fs::path& entry : entries_of(work())) {
+    // A plan comes before all else, so it is looked for after.
+    if (is_unfinished(entry.filename().string()) || fs::exists(plan())) continue;
+    throw Error(ErrorCode::usage, entry.string() + " is of no forest", kNameAnother);
+  }
 }
 
-std::string content_of(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream content;
-  errno = 0;
-  if (stream) content << stream.rdbuf();
-  if (!stream || stream.bad()) {
-    throw Error(ErrorCode::input,
-                "cannot read " + file.string() + ": " +
-                    std::generic_category().message(errno != 0 ? errno : EIO),
-                "Check the disk and the file's permissions.");
+void ForestFolder::remove_forest() const {
+  check_schema(manifest(), kManifestSchema);
+  check_schema(plan(), kPlanSchema);
+  if (!fs::exists(manifest()) && !fs::exists(plan()) && !fs::exists(removed())) return;
+  for (const fs::path& journal : journals()) SealedLines(journal, "another process");
+
+  if (fs::exists(manifest())) {  // first, so that no manifest lists what is gone
+    std::error_code error;
+    fs::create_directories(work(), error);
+    if (!error) fs::rename(manifest(), removed(), error);
+    if (error) throw write_error(removed(), error.value());
   }
-  return std::move(content).str();
+  remove_listed(removed(), kManifestSchema, folder_);
+  remove_listed(files(), kFilesSchema, folder_);
+  remove_tiles(tiles());
+  for (const char* name : {"tiles", "tileset.json", "forest.glb"}) remove_path(folder_ / name);
+  clear_work();  // work/ stays: what is left in tiles/ is known not to be in the way
+}
+
+void ForestFolder::remove_work() const {
+  clear_work();
+  remove_path(work());
+}
+
+void ForestFolder::clear_work() const {
+  for (const fs::path& journal : journals()) remove_path(journal);
+  remove_tiles(work());
+  for (const fs::path& entry : entries_of(work())) {
+    if (is_unfinished(entry.filename().string())) remove_path(entry);
+  }
+  // The plan last: without it, work/ is not ours.
+  for (const fs::path& file : {files(), removed(), control(), plan()}) remove_path(file);
 }
 
 }  // namespace leafhull

@@ -3,57 +3,38 @@
 
 #include <string>
 
-#include "forest/level.h"
-#include "forest/store.h"
 #include "leafhull/version.h"
 #include "output/report.h"
+#include "runs/checksum.h"
+#include "runs/identity.h"
+#include "tiles/level.h"
 
 namespace leafhull {
 namespace {
 
-template <class T>
-void add(std::string& bytes, const T& value) {
-  bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
-}
-
-std::string checksum(std::span<const PlacedTree> trees) {
+std::string checksum_of(std::span<const PlacedTree> trees) {
   std::string bytes;
   for (const PlacedTree& tree : trees) {  // member by member: there is padding
-    add(bytes, tree.position);
-    add(bytes, tree.linear);
-    add(bytes, tree.model);
+    add_bytes(bytes, tree.position, tree.linear, tree.model);
     // Of a part at a time, so that a million trees take no memory.
     if (bytes.size() > std::size_t{1} << 20) bytes = record_of(bytes).sha256;
   }
   return record_of(bytes).sha256;
 }
 
-std::string checksum(const LeafSet& leaves) {
-  std::string bytes;
-  for (const LeafVertex& leaf : leaves.vertices) {
-    add(bytes, leaf.position);
-    add(bytes, leaf.normal);
-    add(bytes, leaf.major);
-    add(bytes, leaf.radius_major);
-    add(bytes, leaf.radius_minor);
-  }
-  return record_of(bytes).sha256;
-}
-
 }  // namespace
 
-nlohmann::ordered_json forest_identity(const Scene& scene, std::span<const LeafSet> models,
-                                       const ForestOptions& options, const DeviceInfo& device,
-                                       double voxel_size, int edge) {
-  using Json = nlohmann::ordered_json;
+Json forest_identity(const Scene& scene, std::span<const LeafSet> models,
+                     const ForestOptions& options, const DeviceInfo& device, double voxel_size,
+                     int edge) {
   Json leaves = Json::array();
   for (std::size_t m = 0; m < models.size(); ++m) {
-    leaves.push_back({{"name", scene.models[m].name}, {"sha256", checksum(models[m])}});
+    leaves.push_back({{"name", scene.models[m].name}, {"sha256", checksum_of(models[m])}});
   }
   Json identity{{"version", kVersion},
-                {"device", device.name + " (" + device.platform + ", " + device.variant + ")"},
+                {"device", text_of(device)},
                 {"trees", scene.trees.size()},
-                {"placing", checksum(scene.trees)},
+                {"placing", checksum_of(scene.trees)},
                 {"models", leaves},
                 {"merge", name(options.merge)},
                 {"options", options_object(resolved_shape(options))}};

@@ -6,11 +6,11 @@
 
 #include "forest/identity.h"
 #include "forest/instances.h"
-#include "forest/level.h"
 #include "forest/store.h"
 #include "leafhull/error.h"
 #include "pipeline/memory.h"
 #include "pipeline/stopwatch.h"
+#include "tiles/level.h"
 
 namespace leafhull {
 namespace {
@@ -74,7 +74,7 @@ ForestSummary merge_none(const Scene& scene, const ForestOptions& options, Devic
     tell("write", scene.models.size());
     if (!store.finished()) {
       if (!any) {
-        std::filesystem::remove_all(folder / "work");
+        store.folder().remove_work();
         throw Error(ErrorCode::empty, "the forest is empty: no model has a surface",
                     "Lower --threshold, enlarge --radius-max, or take a finer --resolution.");
       }

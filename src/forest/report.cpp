@@ -4,14 +4,13 @@
 #include <array>
 #include <string_view>
 
-#include "forest/level.h"
+#include "forest/tile_record.h"
 #include "leafhull/forest.h"
 #include "leafhull/version.h"
+#include "tiles/level.h"
 
 namespace leafhull {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 /// Options that no tile heeds.
 constexpr std::array<std::string_view, 2> kNotOfForests = {"mesher", "adaptivity"};
@@ -30,24 +29,9 @@ Json options_of(const ForestOptions& options) {
   return object;
 }
 
-Json row(const TileRow& tile) {
-  return {{"level", tile.level},
-          {"x", tile.x},
-          {"y", tile.y},
-          {"z", tile.z},
-          {"leaf_points", tile.leaf_vertices},
-          {"gathered", tile.gathered},
-          {"evaluated_voxels", tile.evaluated_voxels},
-          {"vertices", tile.vertices},
-          {"triangles", tile.triangles},
-          {"seconds", tile.seconds},
-          {"resident_bytes", tile.resident_bytes},
-          {"rank", tile.rank}};
-}
-
 Json rows(const std::vector<TileRow>& tiles) {
   Json array = Json::array();
-  for (const TileRow& tile : tiles) array.push_back(row(tile));
+  for (const TileRow& tile : tiles) array.push_back(json_of(tile));
   return array;
 }
 
@@ -88,7 +72,7 @@ std::string forest_report_json(const ForestSummary& summary, const ForestOptions
                        {"tiles", rows(summary.rows)},
                        {"warnings", summary.warnings}};
   // A path may hold bytes that are no UTF-8; JSON may not.
-  return report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return dumped(report, 2) + "\n";
 }
 
 }  // namespace leafhull

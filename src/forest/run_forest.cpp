@@ -12,20 +12,19 @@
 #include <utility>
 
 #include "density/control.h"
-#include "forest/compute_tile.h"
 #include "forest/identity.h"
 #include "forest/merge_none.h"
-#include "forest/plan.h"
-#include "forest/scene_control.h"
-#include "forest/sealed_json.h"
 #include "forest/store.h"
-#include "forest/tile_count.h"
 #include "forest/tileset.h"
 #include "leafhull/error.h"
 #include "leafhull/forest.h"
 #include "leafhull/ranks.h"
 #include "pipeline/memory.h"
 #include "pipeline/stopwatch.h"
+#include "tiles/compute_tile.h"
+#include "tiles/plan.h"
+#include "tiles/scene_control.h"
+#include "tiles/tile_count.h"
 
 namespace leafhull {
 namespace {
@@ -73,16 +72,25 @@ void check(const ForestOptions& options) {
   }
 }
 
+/// visit(name, number) for all that control over the scene has found for a level.
+template <class Level, class Visit>
+void for_each_found(Level& level, const Visit& visit) {
+  visit("mean", level.scene_statistics->mean);
+  visit("variance", level.scene_statistics->variance);
+  visit("p1", level.scene_statistics->p1);
+  visit("p2", level.scene_statistics->p2);
+  visit("threshold", level.threshold);
+}
+
 /// A tile of one of the levels.
 struct Work {
-  int level;
-  std::size_t tile;  ///< in its plan
+  const ForestLevel* level;
+  TileTask task;
   double weight;
 };
 
 /// All of a forest that does not change while its tiles are computed.
 struct Forest {
-  const Scene& scene;
   std::vector<ForestLevel> levels;
   int edge = 0;
   std::vector<TilePlan> plans;
@@ -99,21 +107,12 @@ struct Forest {
     std::vector<Work> all;
     for (std::size_t l = 0; l < plans.size(); ++l) {
       for (std::size_t t = 0; t < plans[l].size(); ++t) {
-        all.push_back({static_cast<int>(l), t, plans[l].weight(t)});
+        all.push_back({&levels[l], plans[l].task(t), plans[l].weight(t)});
       }
     }
     std::stable_sort(all.begin(), all.end(),
                      [](const Work& a, const Work& b) { return a.weight > b.weight; });
     return all;
-  }
-
-  TileId id(const Work& work) const {
-    return plans[static_cast<std::size_t>(work.level)].tiles()[work.tile];
-  }
-
-  TileSurface compute(const Work& work, Device& device) const {
-    const auto l = static_cast<std::size_t>(work.level);
-    return compute_tile(scene, levels[l], {id(work), edge, plans[l].trees(work.tile)}, device);
   }
 };
 
@@ -140,8 +139,7 @@ class Run {
         device_(device),
         ranks_(ranks),
         folder_(folder),
-        progress_(progress),
-        forest_{scene, {}, 0, {}} {}
+        progress_(progress) {}
 
   ForestSummary canopy() {
     prepare();
@@ -185,7 +183,7 @@ class Run {
                      folder_);
     for (int l = 0; l < options_.levels; ++l) {
       const ForestLevel* finest = l > 0 ? &forest_.levels.front() : nullptr;
-      ForestLevel level = prepare_level(l, models, uses, shapes, voxel_size, finest, device_);
+      ForestLevel level = prepare_level(l, scene_, models, shapes, voxel_size, finest, device_);
       level.scope = options_.control_scope;
       forest_.levels.push_back(std::move(level));
     }
@@ -196,9 +194,9 @@ class Run {
     }
     watch_.start("plan");
     tell("plan");
-    forest_.edge = tile_edge(scene_, forest_.levels, options_.tile, options_.memory, folder_);
+    forest_.edge = tile_edge(forest_.levels, options_.tile, options_.memory, folder_);
     for (const ForestLevel& level : forest_.levels) {
-      forest_.plans.emplace_back(scene_, level, forest_.edge);
+      forest_.plans.emplace_back(level, forest_.edge);
     }
     // Which computes surfaces, so that what cannot be has been refused before.
     for (ForestLevel& level : forest_.levels) level.least = least_volume(level, uses, device_);
@@ -231,17 +229,13 @@ class Run {
     const auto advance = [&](std::size_t done, std::size_t all) { tell("control", done, all); };
     for (std::size_t l = 0; l < forest_.levels.size(); ++l) {
       const ForestLevel* finest = l > 0 ? &forest_.levels.front() : nullptr;
-      control_over_scene(scene_, forest_.plans[l], forest_.edge, finest, forest_.levels[l], device_,
-                         ranks_, advance);
+      control_over_scene(forest_.plans[l], finest, forest_.levels[l], device_, ranks_, advance);
     }
     if (ranks_.rank() != 0) return;
     Json levels = Json::array();
     for (const ForestLevel& level : forest_.levels) {
-      levels.push_back({{"mean", level.scene_statistics->mean},
-                        {"variance", level.scene_statistics->variance},
-                        {"p1", level.scene_statistics->p1},
-                        {"p2", level.scene_statistics->p2},
-                        {"threshold", level.threshold}});
+      Json& kept = levels.emplace_back();
+      for_each_found(level, [&](const char* name, double found) { kept[name] = found; });
     }
     store_->keep_control(levels);
   }
@@ -254,13 +248,9 @@ class Run {
     if (kept.empty()) return false;
     const Json levels = Json::parse(kept);
     for (std::size_t l = 0; l < forest_.levels.size(); ++l) {
-      ForestLevel& level = forest_.levels[l];
-      const Json& kept_level = levels.at(l);
-      level.scene_statistics = DensityStatistics{.mean = kept_level.at("mean"),
-                                                 .variance = kept_level.at("variance"),
-                                                 .p1 = kept_level.at("p1"),
-                                                 .p2 = kept_level.at("p2")};
-      level.threshold = kept_level.at("threshold");
+      forest_.levels[l].scene_statistics.emplace();
+      for_each_found(forest_.levels[l],
+                     [&](const char* name, double& found) { levels.at(l).at(name).get_to(found); });
     }
     return true;
   }
@@ -278,7 +268,7 @@ class Run {
       work = std::move(mine);
     }
     all_ = work.size();
-    std::erase_if(work, [&](const Work& w) { return store_->done().contains(forest_.id(w)); });
+    std::erase_if(work, [&](const Work& w) { return store_->done().contains(w.task.id); });
     return work;
   }
 
@@ -316,13 +306,12 @@ class Run {
   }
 
   void make_tile(const Work& work, Computing& computing) {
-    TileRecord record;
-    record.id = forest_.id(work);
+    TileRecord record(work.task.id);
     record.rank = ranks_.rank();
     const TileSurface surface = [&] {
       const Permit permit(computing);
       const auto start = std::chrono::steady_clock::now();
-      TileSurface computed = forest_.compute(work, device_);
+      TileSurface computed = compute_tile(*work.level, work.task, device_);
       const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
       record.seconds = elapsed.count();
       record.resident_bytes = resident_memory();
@@ -341,18 +330,7 @@ class Run {
     summary_.tiles = forest_.tiles().size();
     for (const auto& [id, record] : store_->done()) {
       summary_.empty += record.triangles == 0;
-      summary_.rows.push_back({.level = id.level,
-                               .x = id.at.x,
-                               .y = id.at.y,
-                               .z = id.at.z,
-                               .leaf_vertices = record.leaf_vertices,
-                               .gathered = record.gathered,
-                               .evaluated_voxels = record.evaluated_voxels,
-                               .vertices = record.vertices,
-                               .triangles = record.triangles,
-                               .seconds = record.seconds,
-                               .resident_bytes = record.resident_bytes,
-                               .rank = record.rank});
+      summary_.rows.push_back(record);
     }
     summary_.remaining = summary_.tiles - std::min(summary_.tiles, store_->done().size());
   }
@@ -382,7 +360,7 @@ class Run {
          put_file(*store_, "tileset.json", [&](std::ostream& stream) { stream << tileset; })}};
     if (finished.single) files.emplace(options_.single->string(), *finished.single);
     finish_store(*store_, finished.tiles, files);
-    for (const FinishedTile& tile : finished.tiles) {
+    for (const TileRecord& tile : finished.tiles) {
       summary_.mesh_vertices += tile.vertices;
       summary_.mesh_triangles += tile.triangles;
     }
@@ -392,7 +370,7 @@ class Run {
     const bool surface = std::ranges::any_of(store_->done(), [](const auto& tile) {
       return tile.second.triangles > 0 || tile.second.dropped_components > 0;
     });
-    std::filesystem::remove_all(folder_ / "work");
+    store_->folder().remove_work();
     if (surface) {
       throw Error(ErrorCode::empty, "the forest is empty: every piece of its surface is small",
                   "Lower --min-component.");
@@ -429,7 +407,7 @@ class Run {
   const Progress no_progress_;
   Stopwatch watch_{no_progress_};
   Forest forest_;
-  nlohmann::ordered_json identity_;
+  Json identity_;
   std::optional<Store> store_;
   std::mutex storing_;  ///< held to put a tile into the store
   std::mutex sharing_;  ///< held to talk to the other ranks and the user

@@ -16,9 +16,17 @@ namespace {
 constexpr std::array<char, 8> kMagic{'l', 'e', 'a', 'f', 's', 'e', 'a', 'm'};
 constexpr std::uint32_t kVersion1 = 1;
 
+static_assert(sizeof(SeamVertex) == 6 * 4, "it is written as it lies in memory");
+
 template <class Element>
 std::uint32_t size_of(const std::vector<Element>& elements) {
   return static_cast<std::uint32_t>(elements.size());
+}
+
+template <class Element>
+void write_all(std::ostream& stream, const std::vector<Element>& elements) {
+  stream.write(reinterpret_cast<const char*>(elements.data()),
+               static_cast<std::streamsize>(elements.size() * sizeof(Element)));
 }
 
 class Reader {
@@ -27,20 +35,22 @@ class Reader {
 
   template <class Value>
   Value take() {
-    static_assert(std::is_trivially_copyable_v<Value>);
-    need(sizeof(Value));
-    Value value;
-    std::memcpy(&value, bytes_.data(), sizeof value);
-    bytes_.remove_prefix(sizeof value);
-    return value;
+    return take_all<Value>(1).front();
   }
 
-  void need(std::uint64_t bytes) const {
-    if (bytes_.size() < bytes) fail();
+  template <class Element>
+  std::vector<Element> take_all(std::size_t count) {
+    static_assert(std::is_trivially_copyable_v<Element>);
+    const std::size_t size = count * sizeof(Element);
+    if (bytes_.size() < size) fail();
+    std::vector<Element> elements(count);
+    if (count > 0) std::memcpy(static_cast<void*>(elements.data()), bytes_.data(), size);
+    bytes_.remove_prefix(size);
+    return elements;
   }
-  void end() const {
-    if (!bytes_.empty()) fail();
-  }
+
+  bool at_end() const { return bytes_.empty(); }
+
   [[noreturn]] void fail() const {
     throw Error(ErrorCode::input, where_ + " is damaged: it is no seam of a tile",
                 "Remove it: with --resume its tile is computed again.");
@@ -51,32 +61,17 @@ class Reader {
   const std::string& where_;
 };
 
-constexpr std::uint64_t kVertexBytes = 6 * 4, kComponentBytes = 4 + 16, kLooseBytes = 6 * 4;
-
-void take(Reader& reader, std::vector<SeamVertex>& vertices) {
-  for (SeamVertex& v : vertices) {
-    v.cell = reader.take<Coord>();
-    v.patch = reader.take<std::uint32_t>();
-    v.vertex = reader.take<std::uint32_t>();
-    v.component = reader.take<std::uint32_t>();
-  }
-}
-
 }  // namespace
 
 void write_seam(const Seam& seam, std::ostream& stream) {
   write_record(stream, kMagic, kVersion1, seam.own_vertices, size_of(seam.borrowed),
                size_of(seam.lent), size_of(seam.components), size_of(seam.loose.positions));
-  for (const auto* vertices : {&seam.borrowed, &seam.lent}) {
-    for (const SeamVertex& v : *vertices) {
-      write_record(stream, v.cell, v.patch, v.vertex, v.component);
-    }
-  }
+  write_all(stream, seam.borrowed);
+  write_all(stream, seam.lent);
   for (const SeamComponent& c : seam.components) write_record(stream, c.vertex, c.volume);
   write_record(stream, seam.loose.origin);
-  for (std::size_t v = 0; v < seam.loose.positions.size(); ++v) {
-    write_record(stream, seam.loose.positions[v], seam.loose.normals[v]);
-  }
+  write_all(stream, seam.loose.positions);
+  write_all(stream, seam.loose.normals);
 }
 
 Seam read_seam(std::string_view bytes, const std::string& where) {
@@ -85,29 +80,18 @@ Seam read_seam(std::string_view bytes, const std::string& where) {
   if (reader.take<std::uint32_t>() != kVersion1) reader.fail();
   Seam seam;
   seam.own_vertices = reader.take<std::uint32_t>();
-  const auto borrowed = reader.take<std::uint32_t>();
-  const auto lent = reader.take<std::uint32_t>();
-  const auto components = reader.take<std::uint32_t>();
-  const auto loose = reader.take<std::uint32_t>();
-  reader.need((std::uint64_t{borrowed} + lent) * kVertexBytes + components * kComponentBytes +
-              loose * kLooseBytes);
-  seam.borrowed.resize(borrowed);
-  seam.lent.resize(lent);
-  seam.components.resize(components);
-  seam.loose.positions.resize(loose);
-  seam.loose.normals.resize(loose);
-  take(reader, seam.borrowed);
-  take(reader, seam.lent);
-  for (SeamComponent& c : seam.components) {
-    c.vertex = reader.take<std::uint32_t>();
-    c.volume = reader.take<ExactVolume>();
+  const auto [borrowed, lent, components, loose] = reader.take<std::array<std::uint32_t, 4>>();
+  seam.borrowed = reader.take_all<SeamVertex>(borrowed);
+  seam.lent = reader.take_all<SeamVertex>(lent);
+  for (std::uint32_t i = 0; i < components; ++i) {
+    SeamComponent& component = seam.components.emplace_back();
+    component.vertex = reader.take<std::uint32_t>();
+    component.volume = reader.take<ExactVolume>();
   }
   seam.loose.origin = reader.take<Vec3d>();
-  for (std::uint32_t v = 0; v < loose; ++v) {
-    seam.loose.positions[v] = reader.take<Vec3f>();
-    seam.loose.normals[v] = reader.take<Vec3f>();
-  }
-  reader.end();
+  seam.loose.positions = reader.take_all<Vec3f>(loose);
+  seam.loose.normals = reader.take_all<Vec3f>(loose);
+  if (!reader.at_end()) reader.fail();
   return seam;
 }
 

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "forest/tile.h"
+#include "tiles/tile.h"
 
 namespace leafhull {
 

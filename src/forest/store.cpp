@@ -2,22 +2,16 @@
 #include "forest/store.h"
 
 #include <algorithm>
-#include <optional>
-#include <set>
+#include <cctype>
 #include <system_error>
 #include <utility>
 
-#include "forest/forest_folder.h"
-#include "forest/plan_difference.h"
 #include "forest/seam_file.h"
-#include "forest/tile_json.h"
 #include "forest/tile_mesh.h"
 #include "leafhull/error.h"
-#include "output/line_file.h"
 #include "output/mesh_vertex.h"
-#include "output/temporary_file.h"
-#include "output/write_error.h"
 #include "output/writers.h"
+#include "runs/difference.h"
 
 namespace leafhull {
 namespace {
@@ -38,13 +32,10 @@ void check_writer(const std::string& writer) {
 }
 
 void check_same_forest(const Json& there, const Json& here, const fs::path& folder) {
-  const std::optional<std::string> differs = difference(there, here);
+  const std::optional<Difference> differs = first_difference(there, here);
   if (!differs) return;
-  throw Error(ErrorCode::usage, folder.string() + " holds another forest: " + *differs, kStartOver);
-}
-
-Json read_sealed(const fs::path& file, std::string_view schema) {
-  return unsealed(content_of(file), schema, file.string(), kStartOver);
+  throw Error(ErrorCode::usage, folder.string() + " holds another forest: " + differs->text(),
+              kStartOver);
 }
 
 bool is_there(const fs::path& file, const FileRecord& record) {
@@ -70,161 +61,121 @@ Seam seam_of(const TileSurface& surface) {
 
 }  // namespace
 
-struct Store::Impl {
-  Impl(const fs::path& at, const Json& what, const std::string& who)
-      : folder(at, who), writer(who), plan(Json::parse(dumped(what))) {}
+Store::Store(const fs::path& folder, const Json& plan, const std::string& writer, bool resume,
+             bool restart)
+    : folder_(folder, writer),
+      plan_(Json::parse(dumped(plan))),
+      plan_checksum_(record_of(dumped(plan_)).sha256) {
+  check_writer(writer);
+  open(resume, restart);
+}
 
-  void open(bool resume, bool restart);
-  void open_finished(bool resume);
-  void open_plan() const;
-  void refresh();
-  std::map<TileId, TileRecord> journalled() const;
-  TileRecord tile_of(const std::string& line, const std::string& where) const;
-
-  ForestFolder folder;
-  std::string writer;
-  Json plan;  ///< as it is after a way over the disk
-  std::string plan_checksum = record_of(dumped(plan)).sha256;
-  bool finished = false;
-  Json files;  ///< of a finished forest, by name
-  std::optional<LineFile> journal;
-  std::map<TileId, TileRecord> done;
-  std::set<int> synced;  ///< levels whose folders are known to last
-  std::vector<std::string> warnings;
-};
-
-void Store::Impl::open(bool resume, bool restart) {
-  std::error_code error;
-  fs::create_directories(folder.path(), error);
-  if (error) throw write_error(folder.path(), error.value());
-
-  if (restart || fs::exists(folder.removed())) folder.remove_forest();
-  folder.check_ours();
-  if (fs::exists(folder.manifest())) {
+void Store::open(bool resume, bool restart) {
+  folder_.make_folder(folder_.path());
+  if (restart || fs::exists(folder_.removed())) folder_.remove_forest();
+  folder_.check_ours();
+  if (fs::exists(folder_.manifest())) {
     open_finished(resume);
     return;
   }
   open_plan();
-  journal.emplace(folder.journal(), "another process of the name " + writer);
-  sync_folder(folder.work());
-  folder.remove_temporary();
+  journal_.emplace(folder_.journal(), "another process of the name " + folder_.writer());
+  folder_.remove_unfinished();
   refresh();
-  if (!resume && !done.empty()) {
+  if (!resume && !done_.empty()) {
     throw Error(ErrorCode::usage,
-                folder.path().string() +
-                    " holds an unfinished forest: " + std::to_string(done.size()) +
-                    (done.size() == 1 ? " tile is" : " tiles are") + " done",
+                folder_.path().string() +
+                    " holds an unfinished forest: " + std::to_string(done_.size()) +
+                    (done_.size() == 1 ? " tile is" : " tiles are") + " done",
                 kGoOn);
   }
 }
 
-void Store::Impl::open_plan() const {
-  if (!fs::exists(folder.plan())) {
-    const Json file = sealed({{"schema", kPlanSchema}, {"plan", plan}});
-    folder.write_once(folder.plan(), dumped(file, 2) + "\n");
+void Store::open_plan() {
+  if (!fs::exists(folder_.plan())) {
+    folder_.write_once(folder_.plan(), sealed_text({{"schema", kPlanSchema}, {"plan", plan_}}));
   }
-  check_same_forest(read_sealed(folder.plan(), kPlanSchema).at("plan"), plan, folder.path());
+  check_same_forest(unsealed_file(folder_.plan(), kPlanSchema, kStartOver).at("plan"), plan_,
+                    folder_.path());
 }
 
-void Store::Impl::open_finished(bool resume) {
-  const Json manifest = read_sealed(folder.manifest(), kManifestSchema);
-  check_same_forest(manifest.at("plan"), plan, folder.path());
+void Store::open_finished(bool resume) {
+  const Json manifest = unsealed_file(folder_.manifest(), kManifestSchema, kStartOver);
+  check_same_forest(manifest.at("plan"), plan_, folder_.path());
   if (!resume) {
-    throw Error(ErrorCode::usage, folder.path().string() + " holds this forest, finished",
+    throw Error(ErrorCode::usage, folder_.path().string() + " holds this forest, finished",
                 "--resume leaves it as it is, --restart starts over; or name another folder.");
   }
-  const auto check = [&](const fs::path& file, const Json& record) {
-    if (is_there(folder.path() / file, file_record(record))) return;
+  const auto check = [&](const std::string& name, const Json& record) {
+    const fs::path file = folder_.path() / name;
+    if (is_there(file, record)) return;
     throw Error(ErrorCode::input,
-                (folder.path() / file).string() + " is missing or has another size than " +
-                    folder.manifest().string() + " says",
+                file.string() + " is missing or has another size than " +
+                    folder_.manifest().string() + " says",
                 kStartOver);
   };
-  files = manifest.at("files");
-  for (const auto& [name, record] : files.items()) check(name, record);
+  files_ = manifest.at("files");
+  for (const auto& [name, record] : files_.items()) check(name, record);
   for (const Json& tile : manifest.at("tiles")) check(tile.at("file").get<std::string>(), tile);
-  folder.remove_work();  // which may have been cut off
-  finished = true;
+  folder_.remove_work();  // which may have been cut off
+  finished_ = true;
 }
 
-TileRecord Store::Impl::tile_of(const std::string& line, const std::string& where) const {
-  const Json json = unsealed(line, kTileSchema, where,
-                             "Remove that journal: its tiles are computed again. " +
-                                 std::string("--restart starts over."));
-  if (json.at("plan") != plan_checksum) {
+TileRecord Store::tile_of(const std::string& line, const std::string& where) const {
+  const Json json =
+      unsealed(line, kTileSchema, where,
+               "Remove that journal: its tiles are computed again. --restart starts over.");
+  if (json.at("plan") != plan_checksum_) {
     throw Error(ErrorCode::usage, where + " is of another forest", kStartOver);
   }
   return tile_record(json);
 }
 
-std::map<TileId, TileRecord> Store::Impl::journalled() const {
-  std::map<TileId, TileRecord> tiles;
-  for (const fs::path& file : folder.journals()) {
+void Store::refresh() {
+  if (finished_) return;
+  done_.clear();
+  for (const fs::path& file : folder_.journals()) {
     std::size_t number = 0;
     for (const std::string& line : whole_lines(file)) {
       const TileRecord tile =
           tile_of(line, file.string() + ", line " + std::to_string(++number) + ",");
-      tiles.insert_or_assign(tile.id, tile);
+      done_.insert_or_assign(tile.id(), tile);
     }
   }
-  return tiles;
-}
-
-void Store::Impl::refresh() {
-  if (finished) return;
-  done = journalled();
   std::size_t lost = 0;
   fs::path first;
-  std::erase_if(done, [&](const auto& entry) {
+  std::erase_if(done_, [&](const auto& entry) {
     const auto& [id, tile] = entry;
-    const fs::path mesh = folder.mesh(id), seam = folder.seam(id);
+    const fs::path mesh = folder_.mesh(id), seam = folder_.seam(id);
     const bool has_mesh = is_there(mesh, tile.mesh);
     if (has_mesh && is_there(seam, tile.seam)) return false;
     if (lost++ == 0) first = has_mesh ? seam : mesh;
     return true;
   });
   if (lost == 0) return;
-  warnings.push_back(
+  warnings_.push_back(
       std::to_string(lost) +
       (lost == 1 ? " tile is computed again: " : " tiles are computed again, one as ") +
       first.string() + " is missing or has another size than it had");
 }
 
-Store::Store(const fs::path& folder, const Json& plan, const std::string& writer, bool resume,
-             bool restart) {
-  check_writer(writer);
-  impl_ = std::make_unique<Impl>(folder, plan, writer);
-  impl_->open(resume, restart);
-}
-Store::~Store() = default;
-
-const std::map<TileId, TileRecord>& Store::done() const { return impl_->done; }
 std::optional<Json> Store::control() const {
-  const fs::path file = impl_->folder.control();
+  const fs::path file = folder_.control();
   if (!fs::exists(file)) return std::nullopt;
-  const Json kept = read_sealed(file, kControlSchema);
-  if (kept.at("plan") != impl_->plan_checksum) {
+  const Json kept = unsealed_file(file, kControlSchema, kStartOver);
+  if (kept.at("plan") != plan_checksum_) {
     throw Error(ErrorCode::usage, file.string() + " is of another forest", kStartOver);
   }
   return kept.at("levels");
 }
 
 void Store::keep_control(const Json& levels) {
-  const Json file =
-      sealed({{"schema", kControlSchema}, {"plan", impl_->plan_checksum}, {"levels", levels}});
-  impl_->folder.write_once(impl_->folder.control(), dumped(file, 2) + "\n");
+  folder_.write_once(
+      folder_.control(),
+      sealed_text({{"schema", kControlSchema}, {"plan", plan_checksum_}, {"levels", levels}}));
 }
 
-void Store::refresh() { impl_->refresh(); }
-bool Store::finished() const { return impl_->finished; }
-bool Store::holds(const std::string& file) const { return impl_->files.contains(file); }
-const std::vector<std::string>& Store::warnings() const { return impl_->warnings; }
-const fs::path& Store::folder() const { return impl_->folder.path(); }
-const std::string& Store::writer() const { return impl_->writer; }
-const Json& Store::plan() const { return impl_->plan; }
-
 TileRecord Store::put(const TileSurface& surface, TileRecord record) {
-  const ForestFolder& folder = impl_->folder;
   const Mesh& mesh = surface.mesh;
   record.vertices = mesh.positions.size();
   record.triangles = mesh.triangles.size();
@@ -235,35 +186,27 @@ TileRecord Store::put(const TileSurface& surface, TileRecord record) {
   record.gathered = surface.gathered;
   record.evaluated_voxels = surface.evaluated_voxels;
   record.dropped_components = surface.dropped_components;
-
   record.mesh = {};
   if (!mesh.triangles.empty()) {
-    record.mesh = folder.write(folder.mesh(record.id),
-                               [&](std::ostream& stream) { write_glb(mesh, stream); });
+    record.mesh = folder_.write(folder_.mesh(record.id()),
+                                [&](std::ostream& stream) { write_glb(mesh, stream); });
   }
   record.seam = {};
   if (const Seam seam = seam_of(surface); !seam.empty()) {
-    record.seam = folder.write(folder.seam(record.id),
-                               [&](std::ostream& stream) { write_seam(seam, stream); });
+    record.seam = folder_.write(folder_.seam(record.id()),
+                                [&](std::ostream& stream) { write_seam(seam, stream); });
   }
-  const fs::path level = folder.mesh(record.id).parent_path();
-  if (!record.mesh.sha256.empty() || !record.seam.sha256.empty()) {
-    sync_folder(level);
-    if (impl_->synced.insert(record.id.level).second) sync_folder(folder.work());
-  }
-
-  Json line{{"schema", kTileSchema}, {"plan", impl_->plan_checksum}};
+  folder_.sync();
+  Json line{{"schema", kTileSchema}, {"plan", plan_checksum_}};
   line.update(json_of(record));
-  impl_->journal->append(dumped(sealed(std::move(line))));
-  impl_->done.insert_or_assign(record.id, record);
+  journal_->append(std::move(line));
+  done_.insert_or_assign(record.id(), record);
   return record;
 }
 
-FileRecord put_file(const Store& store, const std::string& name,
-                    const std::function<void(std::ostream&)>& writer) {
-  const ForestFolder folder(store.folder(), store.writer());
-  FileRecord record = folder.write(store.folder() / name, writer);
-  sync_folder(store.folder());
+FileRecord put_file(Store& store, const std::string& name, const RunFolder::Fill& fill) {
+  FileRecord record = store.folder().write(store.folder().path() / name, fill);
+  store.folder().sync();
   return record;
 }
 

@@ -2,19 +2,17 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <map>
-#include <memory>
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
-#include <ostream>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
-#include "forest/record.h"
-#include "forest/tile.h"
+#include "forest/forest_folder.h"
+#include "forest/tile_record.h"
+#include "runs/sealed_json.h"
+#include "runs/sealed_lines.h"
+#include "tiles/tile.h"
 
 namespace leafhull {
 
@@ -34,44 +32,51 @@ class Store {
   ///         finished one without `resume`, or files from elsewhere; a journal that another process
   ///         writes; input: a plan, a journal or a manifest that is damaged or of another program,
   ///         or a finished forest that lacks a file; output: it cannot be made or written to.
-  Store(const std::filesystem::path& folder, const nlohmann::ordered_json& plan,
-        const std::string& writer, bool resume, bool restart);
-  ~Store();
+  Store(const std::filesystem::path& folder, const Json& plan, const std::string& writer,
+        bool resume, bool restart);
 
   /// Every tile that is on the disk, by any writer: read when the store was opened and at
   /// refresh(). One that has lost a file, or whose file has another size, is not among them.
-  const std::map<TileId, TileRecord>& done() const;
+  const std::map<TileId, TileRecord>& done() const { return done_; }
   /// @throws Error input: a journal that is damaged.
   void refresh();
   /// What control over the scene has found, by level, once it is kept: what was computed need not
   /// be again. @throws Error input: damaged.
-  std::optional<nlohmann::ordered_json> control() const;
-  void keep_control(const nlohmann::ordered_json& levels);
+  std::optional<Json> control() const;
+  void keep_control(const Json& levels);
   /// Whether manifest.json is there: the forest is finished, and nothing is kept any more.
-  bool finished() const;
+  bool finished() const { return finished_; }
   /// Whether the finished forest has this file beside its tiles.
-  bool holds(const std::string& file) const;
+  bool holds(const std::string& file) const { return files_.contains(file); }
   /// What was found amiss and is computed again.
-  const std::vector<std::string>& warnings() const;
+  const std::vector<std::string>& warnings() const { return warnings_; }
 
-  /// Keeps a tile: mesh and seam under temporary names, synced, renamed, then its line. Returns the
-  /// record with its files and all that the surface tells. One call at a time.
-  /// @throws Error output; the tile then does not count.
+  /// Keeps a tile: mesh and seam, then its line. Returns the record with its files and all that the
+  /// surface tells. One call at a time. @throws Error output; the tile then does not count.
   TileRecord put(const TileSurface& surface, TileRecord record);
 
-  const std::filesystem::path& folder() const;
-  const std::string& writer() const;
-  const nlohmann::ordered_json& plan() const;
+  ForestFolder& folder() { return folder_; }
+  const Json& plan() const { return plan_; }
 
  private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
+  void open(bool resume, bool restart);
+  void open_finished(bool resume);
+  void open_plan();
+  TileRecord tile_of(const std::string& line, const std::string& where) const;
+
+  ForestFolder folder_;
+  Json plan_;  ///< as it is after a way over the disk
+  std::string plan_checksum_;
+  bool finished_ = false;
+  Json files_;  ///< of a finished forest, by name
+  std::optional<SealedLines> journal_;
+  std::map<TileId, TileRecord> done_;
+  std::vector<std::string> warnings_;
 };
 
 /// Writes a file of the result into the folder, by way of work/, so that nothing half-written
 /// outlives the forest. @throws Error output.
-FileRecord put_file(const Store& store, const std::string& name,
-                    const std::function<void(std::ostream&)>& writer);
+FileRecord put_file(Store& store, const std::string& name, const RunFolder::Fill& fill);
 
 /// Pieces of surface that are to be dropped because all tiles' parts together are small.
 struct SmallPieces {
@@ -79,17 +84,9 @@ struct SmallPieces {
   std::vector<ExactVolume> least;
 };
 
-/// What of a finished forest tileset.json and the manifest list.
-struct FinishedTile {
-  TileId id;
-  FileRecord mesh;  ///< at tiles/LEVEL/X_Y_Z.glb
-  std::uint64_t vertices = 0, triangles = 0;
-  Box bounds;
-};
-
 /// The result, in place.
 struct FinishedForest {
-  std::vector<FinishedTile> tiles;       ///< those with a surface, ascending
+  std::vector<TileRecord> tiles;         ///< those with a surface, as they are there, ascending
   std::uint64_t dropped_components = 0;  ///< small pieces that reached over seams
   std::optional<FileRecord> single;
 };
@@ -102,17 +99,13 @@ struct FinishedForest {
 /// @throws Error input: a tile's file is damaged; it is removed, so that a store that is opened
 ///         again lacks the tile; output; internal: a tile that is not done, or tiles that do not
 ///         fit together.
-FinishedForest put_in_place(const Store& store, std::span<const TileId> tiles, int tile_edge,
+FinishedForest put_in_place(Store& store, std::span<const TileId> tiles, int tile_edge,
                             const SmallPieces& small,
                             const std::optional<std::filesystem::path>& single);
 
 /// Writes manifest.json, which ends the forest, and removes work/. `files`: others that belong to
 /// it, by name, tileset.json among them.
-void finish_store(const Store& store, std::span<const FinishedTile> tiles,
+void finish_store(Store& store, std::span<const TileRecord> tiles,
                   const std::map<std::string, FileRecord>& files);
-
-/// The checksum of bytes or of a file. @throws Error output: it cannot be read.
-FileRecord record_of(std::string_view bytes);
-FileRecord record_of_file(const std::filesystem::path& file);
 
 }  // namespace leafhull

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <functional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "forest/forest_folder.h"
@@ -12,15 +13,23 @@
 
 namespace leafhull {
 
+/// A tile that is done, and where its files are.
+struct StoredTile {
+  TileRecord record;
+  bool placed = false;  ///< its mesh is in tiles/
+  bool cut = false;     ///< it has lost pieces, and its seam is the one of what is left
+};
+
 /// The tiles of a forest that are all done, ascending.
 class StoredTiles {
  public:
   /// @throws Error internal: one is not done.
-  StoredTiles(const Store& store, std::span<const TileId> tiles, int tile_edge);
+  StoredTiles(Store& store, std::span<const TileId> tiles, int tile_edge);
 
-  std::size_t size() const { return records_.size(); }
-  const TileRecord& operator[](std::size_t tile) const { return *records_[tile]; }
-  const ForestFolder& folder() const { return folder_; }
+  std::size_t size() const { return tiles_.size(); }
+  const StoredTile& operator[](std::size_t tile) const { return tiles_[tile]; }
+  StoredTile& operator[](std::size_t tile) { return tiles_[tile]; }
+  ForestFolder& folder() const { return folder_; }
 
   // From the disk. @throws Error input: the file is damaged.
   Seam seam(std::size_t tile) const;
@@ -33,16 +42,16 @@ class StoredTiles {
   std::size_t owner(int level, const SeamVertex& vertex) const;
 
  private:
-  ForestFolder folder_;
+  std::filesystem::path mesh_path(const StoredTile& tile) const;
+
+  ForestFolder& folder_;
   int tile_edge_;
-  std::vector<const TileRecord*> records_;
+  std::vector<StoredTile> tiles_;
 };
 
-/// Visits every borrowed vertex of a tile together with its owner and what the owner lends, and
-/// asks for one owner's seam after the other.
+/// Visits every borrowed vertex of a tile together with its owner and what the owner lends.
 /// @throws Error internal: an owner lends no such vertex, so the surface would have a crack.
 void for_each_borrowed(const StoredTiles& tiles, std::size_t tile, const Seam& seam,
-                       const std::function<Seam(std::size_t owner)>& seam_of,
                        const std::function<void(const SeamVertex& borrowed, std::size_t owner,
                                                 const SeamVertex& lent)>& visit);
 

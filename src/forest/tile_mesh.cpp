@@ -8,10 +8,9 @@
 #include <system_error>
 #include <utility>
 
-#include "forest/forest_folder.h"
-#include "forest/store.h"
 #include "leafhull/error.h"
 #include "output/mesh_vertex.h"
+#include "runs/read_file.h"
 
 namespace leafhull {
 namespace {
@@ -133,10 +132,7 @@ Mesh read_mesh(std::string_view glb, const std::string& where) {
 
 std::string checked_content(const fs::path& file, const FileRecord& record) {
   std::string content = content_of(file);
-  if (const FileRecord found = record_of(content);
-      found.bytes == record.bytes && found.sha256 == record.sha256) {
-    return content;
-  }
+  if (record_of(content) == record) return content;
   std::error_code ignored;
   fs::remove(file, ignored);
   throw Error(ErrorCode::input, file.string() + " is damaged: its checksum differs", kComputeAgain);

@@ -6,9 +6,9 @@
 #include <string>
 #include <string_view>
 
-#include "forest/record.h"
 #include "forest/seam_file.h"
 #include "leafhull/shape.h"
+#include "runs/checksum.h"
 
 namespace leafhull {
 

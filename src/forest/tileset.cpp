@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <sstream>
 #include <string_view>
 
@@ -13,8 +12,6 @@
 
 namespace leafhull {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 struct Node {
   std::string content;  ///< its file; empty: it has no surface
@@ -28,22 +25,16 @@ struct Octree {
   Node root;                     ///< over all nodes of the coarsest level, or the only one there
 };
 
-std::string file_of(const TileId& id) {
-  std::ostringstream file;
-  file << "tiles/" << id.level << "/" << id.at.x << "_" << id.at.y << "_" << id.at.z << ".glb";
-  return file.str();
-}
-
 double diagonal(const Box& box) { return length(box.size()); }
 
 /// The tiles with a surface and all their ancestors, up to the coarsest level that has a surface.
-Octree octree_of(std::span<const FinishedTile> tiles, std::span<const double> errors) {
+Octree octree_of(std::span<const TileRecord> tiles, std::span<const double> errors) {
   Octree octree;
   auto& [nodes, root] = octree;
-  for (const FinishedTile& tile : tiles) {
+  for (const TileRecord& tile : tiles) {
     if (tile.mesh.sha256.empty()) continue;
-    Node& node = nodes[tile.id];
-    node.content = file_of(tile.id);
+    Node& node = nodes[tile.id()];
+    node.content = file_of(tile.id());
     node.bounds = tile.bounds;
   }
   if (nodes.empty()) throw Error(ErrorCode::empty, "no tile of the forest has a surface");
@@ -112,7 +103,7 @@ void write_tile(std::ostream& out, const Octree& octree, const Node& node, std::
 
 }  // namespace
 
-std::string tileset_json(std::span<const FinishedTile> tiles, std::span<const double> errors) {
+std::string tileset_json(std::span<const TileRecord> tiles, std::span<const double> errors) {
   const Octree octree = octree_of(tiles, errors);
   const Json generator = {{"generator", std::string("leafhull ") + kVersion}};
   const Json tileset = {{"asset", {{"version", "1.1"}, {"extras", generator}}},

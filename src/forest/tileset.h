@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "forest/store.h"
+#include "forest/tile_record.h"
 
 namespace leafhull {
 
@@ -18,6 +18,6 @@ namespace leafhull {
 ///               ascending.
 /// @throws Error empty: no tile has a surface.
 /// Source: OGC 22-025r4.
-std::string tileset_json(std::span<const FinishedTile> tiles, std::span<const double> errors);
+std::string tileset_json(std::span<const TileRecord> tiles, std::span<const double> errors);
 
 }  // namespace leafhull

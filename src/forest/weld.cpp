@@ -10,7 +10,7 @@
 #include "output/destination.h"
 #include "output/mesh_head.h"
 #include "output/mesh_vertex.h"
-#include "output/temporary_file.h"
+#include "runs/sealed_json.h"
 #include "text/file_name.h"
 
 namespace leafhull {
@@ -20,15 +20,13 @@ namespace fs = std::filesystem;
 
 class Weld {
  public:
-  Weld(const StoredTiles& tiles, std::span<const PlacedTile> placed);
+  explicit Weld(const StoredTiles& tiles);
 
   void write_ply(std::ostream& stream) const;
   void write_glb(std::ostream& stream) const;
 
  private:
   Vec3d middle_origin() const;
-  Seam seam(std::size_t tile) const;
-  Mesh mesh(std::size_t tile, Seam& seam) const;
   std::optional<Vec3f> colour() const;
   template <class Write>
   void for_each_vertex(const Write& write) const;
@@ -37,23 +35,22 @@ class Weld {
   std::vector<std::uint32_t> welded(std::size_t tile, const Seam& seam, std::size_t size) const;
 
   const StoredTiles& tiles_;
-  std::span<const PlacedTile> placed_;
   std::vector<std::uint32_t> first_vertex_;  ///< of each tile of level 0
   std::uint64_t vertices_ = 0, triangles_ = 0;
   bool far_out_ = false;
   Box box_;
 };
 
-Weld::Weld(const StoredTiles& tiles, std::span<const PlacedTile> placed)
-    : tiles_(tiles), placed_(placed) {
-  for (std::size_t t = 0; t < tiles.size() && tiles[t].id.level == 0; ++t) {
+Weld::Weld(const StoredTiles& tiles) : tiles_(tiles) {
+  for (std::size_t t = 0; t < tiles.size() && tiles[t].record.level == 0; ++t) {
+    const TileRecord& tile = tiles[t].record;
     first_vertex_.push_back(static_cast<std::uint32_t>(vertices_));
-    vertices_ += placed[t].own_vertices;
-    triangles_ += placed[t].triangles;
-    if (placed[t].vertices == 0) continue;
-    far_out_ = far_out_ || tiles[t].origin != Vec3d{};
-    box_.include(placed[t].bounds.low);
-    box_.include(placed[t].bounds.high);
+    vertices_ += tile.own_vertices;
+    triangles_ += tile.triangles;
+    if (tile.vertices == 0) continue;
+    far_out_ = far_out_ || tile.origin != Vec3d{};
+    box_.include(tile.bounds.low);
+    box_.include(tile.bounds.high);
   }
   if (vertices_ > std::numeric_limits<std::uint32_t>::max()) {
     throw Error(
@@ -69,34 +66,21 @@ Vec3d Weld::middle_origin() const {
   Vec3d origin;
   double least = HUGE_VAL;
   for (std::size_t t = 0; t < first_vertex_.size(); ++t) {
-    const double distance = length(tiles_[t].origin - middle);
-    if (placed_[t].vertices == 0 || !(distance < least)) continue;
+    const TileRecord& tile = tiles_[t].record;
+    const double distance = length(tile.origin - middle);
+    if (tile.vertices == 0 || !(distance < least)) continue;
     least = distance;
-    origin = tiles_[t].origin;
+    origin = tile.origin;
   }
   return origin;
-}
-
-Seam Weld::seam(std::size_t tile) const {
-  const FileRecord& kept = placed_[tile].kept_seam;
-  if (kept.sha256.empty()) return tiles_.seam(tile);
-  const fs::path file = tiles_.folder().kept_seam(tiles_[tile].id);
-  return read_seam(checked_content(file, kept), file.string());
-}
-
-Mesh Weld::mesh(std::size_t tile, Seam& seam) const {
-  const FileRecord& record = placed_[tile].mesh;
-  if (record.sha256.empty()) return std::exchange(seam.loose, {});
-  const fs::path file = tiles_.folder().tile(tiles_[tile].id);
-  return read_mesh(checked_content(file, record), file.string());
 }
 
 /// All tiles of a level have one.
 std::optional<Vec3f> Weld::colour() const {
   for (std::size_t t = 0; t < first_vertex_.size(); ++t) {
-    if (placed_[t].mesh.sha256.empty()) continue;
-    Seam seam_of_tile = seam(t);
-    return mesh(t, seam_of_tile).colour;
+    if (tiles_[t].record.mesh.sha256.empty()) continue;
+    Seam seam = tiles_.seam(t);
+    return tiles_.mesh(t, seam).colour;
   }
   return std::nullopt;
 }
@@ -104,30 +88,29 @@ std::optional<Vec3f> Weld::colour() const {
 template <class Write>
 void Weld::for_each_vertex(const Write& write) const {
   for (std::size_t t = 0; t < first_vertex_.size(); ++t) {
-    if (placed_[t].own_vertices == 0) continue;
-    Seam seam_of_tile = seam(t);
-    const Mesh mesh_of_tile = mesh(t, seam_of_tile);
-    for (std::uint32_t v = 0; v < seam_of_tile.own_vertices; ++v) {
-      write(world_position(mesh_of_tile, v), mesh_of_tile.normals[v]);
+    if (tiles_[t].record.own_vertices == 0) continue;
+    Seam seam = tiles_.seam(t);
+    const Mesh mesh = tiles_.mesh(t, seam);
+    for (std::uint32_t v = 0; v < seam.own_vertices; ++v) {
+      write(world_position(mesh, v), mesh.normals[v]);
     }
   }
 }
 
 /// Where the vertices of a tile are among all.
-std::vector<std::uint32_t> Weld::welded(std::size_t tile, const Seam& seam_of_tile,
+std::vector<std::uint32_t> Weld::welded(std::size_t tile, const Seam& seam,
                                         std::size_t size) const {
   constexpr auto kNowhere = std::numeric_limits<std::uint32_t>::max();
   std::vector<std::uint32_t> welded(size, kNowhere);
-  for (std::uint32_t v = 0; v < seam_of_tile.own_vertices; ++v) welded[v] = first_vertex_[tile] + v;
-  for_each_borrowed(
-      tiles_, tile, seam_of_tile, [&](std::size_t owner) { return seam(owner); },
-      [&](const SeamVertex& borrowed, std::size_t owner, const SeamVertex& lent) {
-        welded[borrowed.vertex] = first_vertex_[owner] + lent.vertex;
-      });
+  for (std::uint32_t v = 0; v < seam.own_vertices; ++v) welded[v] = first_vertex_[tile] + v;
+  for_each_borrowed(tiles_, tile, seam,
+                    [&](const SeamVertex& borrowed, std::size_t owner, const SeamVertex& lent) {
+                      welded[borrowed.vertex] = first_vertex_[owner] + lent.vertex;
+                    });
   for (const std::uint32_t v : welded) {
     if (v != kNowhere) continue;
     throw Error(ErrorCode::internal,
-                "tile " + name_of(tiles_[tile].id) + " has a vertex of no tile",
+                "tile " + name_of(tiles_[tile].record.id()) + " has a vertex of no tile",
                 "Please report this with the scene and the command.");
   }
   return welded;
@@ -136,11 +119,11 @@ std::vector<std::uint32_t> Weld::welded(std::size_t tile, const Seam& seam_of_ti
 template <class Write>
 void Weld::for_each_triangle(const Write& write) const {
   for (std::size_t t = 0; t < first_vertex_.size(); ++t) {
-    if (placed_[t].triangles == 0) continue;
-    Seam seam_of_tile = seam(t);
-    const Mesh mesh_of_tile = mesh(t, seam_of_tile);
-    const auto at = welded(t, seam_of_tile, mesh_of_tile.positions.size());
-    for (const auto& [a, b, c] : mesh_of_tile.triangles) write(std::array{at[a], at[b], at[c]});
+    if (tiles_[t].record.triangles == 0) continue;
+    Seam seam = tiles_.seam(t);
+    const Mesh mesh = tiles_.mesh(t, seam);
+    const auto at = welded(t, seam, mesh.positions.size());
+    for (const auto& [a, b, c] : mesh.triangles) write(std::array{at[a], at[b], at[c]});
   }
 }
 
@@ -177,29 +160,26 @@ void Weld::write_glb(std::ostream& stream) const {
 
 }  // namespace
 
-FileRecord weld(const StoredTiles& tiles, std::span<const PlacedTile> placed,
-                const fs::path& file) {
+FileRecord weld(const StoredTiles& tiles, const fs::path& file) {
   const std::string extension = lower_extension(file);
   if (extension != ".glb" && extension != ".ply") {
     throw Error(ErrorCode::usage, "all tiles cannot be welded into " + file.string(),
                 "Name a .glb or a .ply file.");
   }
-  const ForestFolder& folder = tiles.folder();
-  const Weld weld(tiles, placed);
+  ForestFolder& folder = tiles.folder();
+  const Weld weld(tiles);
   const auto write = [&](std::ostream& stream) {
     extension == ".ply" ? weld.write_ply(stream) : weld.write_glb(stream);
   };
   // Known to the forest before it is there, so that a restart can remove it.
   const auto announce = [&](const FileRecord& record) {
-    const Json files{
-        {"schema", kFilesSchema},
-        {"files", {{file.string(), {{"bytes", record.bytes}, {"sha256", record.sha256}}}}}};
-    folder.write(folder.files(),
-                 [&](std::ostream& stream) { stream << dumped(sealed(files), 2) << '\n'; });
+    const Json files{{file.string(), record}};
+    folder.write(folder.files(), sealed_text({{"schema", kFilesSchema}, {"files", files}}));
+    folder.sync();
   };
   const fs::path destination = resolve_destination(folder.path() / file);
   FileRecord record = folder.write(destination, write, announce);
-  sync_folder(destination.parent_path());
+  folder.sync();
   return record;
 }
 

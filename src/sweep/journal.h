@@ -4,17 +4,14 @@
 #include <cstddef>
 #include <filesystem>
 #include <map>
-#include <nlohmann/json.hpp>
 
-#include "output/line_file.h"
+#include "runs/sealed_json.h"
+#include "runs/sealed_lines.h"
 
 namespace leafhull {
 
-using Json = nlohmann::ordered_json;
-
-/// What is done of a sweep: a file of one JSON object per line, the first saying which sweep it is,
-/// every other one holding a combination. A line is on the disk before the next is begun, and a
-/// last line that a crash has cut short does not count.
+/// What is done of a sweep: sealed lines, the first saying which sweep it is, every other one
+/// holding a combination. A line that is damaged does not count.
 class Journal {
  public:
   /// Opens or creates `file`, keeps other processes out of it, and reads it.
@@ -33,7 +30,7 @@ class Journal {
   void append(Json row);
 
  private:
-  LineFile lines_;
+  SealedLines lines_;
   Json header_;
   std::map<std::size_t, Json> rows_;
 };

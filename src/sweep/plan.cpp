@@ -2,60 +2,18 @@
 #include "sweep/plan.h"
 
 #include <algorithm>
-#include <bit>
-#include <cstdint>
-#include <cstdio>
 #include <map>
+#include <optional>
 #include <set>
 
 #include "leafhull/error.h"
 #include "leafhull/version.h"
 #include "output/report.h"
+#include "runs/difference.h"
+#include "runs/identity.h"
 
 namespace leafhull {
 namespace {
-
-/// FNV-1a of 64 bits, over values instead of memory, which holds padding.
-class Checksum {
- public:
-  void add(std::uint64_t bits) {
-    for (int byte = 0; byte < 8; ++byte) {
-      hash_ = (hash_ ^ (bits >> (8 * byte) & 0xFF)) * 0x100000001B3;
-    }
-  }
-  void add(double value) { add(std::bit_cast<std::uint64_t>(value)); }
-  void add(float value) { add(std::uint64_t{std::bit_cast<std::uint32_t>(value)}); }
-  template <class T>
-  void add(const Vec3<T>& v) {
-    add(v.x), add(v.y), add(v.z);
-  }
-
-  std::string text() const {
-    char digits[17];
-    std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(hash_));
-    return digits;
-  }
-
- private:
-  std::uint64_t hash_ = 0xCBF29CE484222325;
-};
-
-std::string checksum(const LeafSet& leaves) {
-  Checksum sum;
-  for (const std::size_t count :
-       {leaves.vertices.size(), leaves.leaf_count, leaves.dropped_leaves}) {
-    sum.add(std::uint64_t{count});
-  }
-  for (const LeafVertex& leaf : leaves.vertices) {
-    sum.add(leaf.position);
-    sum.add(leaf.normal);
-    sum.add(leaf.major);
-    sum.add(leaf.radius_major);
-    sum.add(leaf.radius_minor);
-    sum.add(std::uint64_t{leaf.leaf});
-  }
-  return sum.text();
-}
 
 /// Resolved options by name, as a report has them.
 Json parameters(const Options& options) {
@@ -96,19 +54,19 @@ std::string listed(const Json& values) {
   return text.size() <= kMost ? text : text.substr(0, text.rfind(',', kMost)) + ", ...";
 }
 
-std::string first_difference(const Json& there, const Json& here) {
-  const auto differs = [&](const char* key) { return there.value(key, Json()) != here[key]; };
-  if (differs("version")) return "it was made by leafhull " + there.value("version", "?");
-  if (differs("leaves")) return "its tree, or what counts as its leaves, is another";
-  if (differs("device")) return "it was computed on " + there.value("device", "?");
-  for (const auto& [name, values] : here["options"].items()) {
-    const Json other = there.value("options", Json::object()).value(name, Json::array());
-    if (other == values) continue;
-    std::string option = name;
-    std::replace(option.begin(), option.end(), '_', '-');
-    return "its --" + option + " is " + listed(other) + ", not " + listed(values);
-  }
-  return "it sweeps other options";
+std::string words_of(const Difference& differs, const Json& there, const Json& here) {
+  const std::string part = differs.path.empty() ? "" : differs.path.front();
+  if (part == "version") return "it was made by leafhull " + there.value("version", "?");
+  if (part == "leaves") return "its tree, or what counts as its leaves, is another";
+  if (part == "device") return "it was computed on " + there.value("device", "?");
+  if (part != "options" || differs.path.size() == 1) return "it sweeps other options";
+  const std::string& name = differs.path[1];
+  const auto values_in = [&](const Json& sweep) {
+    return listed(sweep.at("options").value(name, Json::array()));
+  };
+  std::string option = name;
+  std::replace(option.begin(), option.end(), '_', '-');
+  return "its --" + option + " is " + values_in(there) + ", not " + values_in(here);
 }
 
 /// What a file name can hold.
@@ -124,17 +82,20 @@ Json identity(const LeafSet& leaves, const SweepPlan& plan, const DeviceInfo& de
   for (const SweptOption& option : plan.swept) swept.push_back(option.row->name);
   return {{"schema", kJournalSchema},
           {"version", kVersion},
-          {"leaves", checksum(leaves)},
-          {"device", device.name + " (" + device.platform + ", " + device.variant + ")"},
-          {"swept", swept},
-          {"options", option_values(plan)}};
+          {"leaves",
+           {checksum_of(leaves), leaves.leaf_count, leaves.dropped_leaves,
+            leaves.crown.longest_side()}},
+          {"device", text_of(device)},
+          {"options", option_values(plan)},
+          {"swept", swept}};
 }
 
 void check_same_sweep(const Json& there, const Json& here, const std::filesystem::path& folder) {
-  if (there == here) return;
+  const std::optional<Difference> differs = first_difference(there, here);
+  if (!differs) return;
   throw Error(
       ErrorCode::usage,
-      folder.string() + " holds a sweep of something else: " + first_difference(there, here),
+      folder.string() + " holds a sweep of something else: " + words_of(*differs, there, here),
       "Name another folder, or give --restart to replace that sweep.");
 }
 

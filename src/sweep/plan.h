@@ -2,16 +2,14 @@
 #pragma once
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "leafhull/sweep.h"
+#include "runs/sealed_json.h"
 
 namespace leafhull {
-
-using Json = nlohmann::ordered_json;
 
 inline constexpr std::string_view kJournalSchema = "leafhull-sweep-journal/1";
 

@@ -2,17 +2,15 @@
 #pragma once
 
 #include <map>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "chart/chart.h"
 #include "leafhull/sweep.h"
+#include "runs/sealed_json.h"
 
 namespace leafhull {
-
-using Json = nlohmann::ordered_json;
 
 /// A chart and the file it goes to.
 struct Plot {

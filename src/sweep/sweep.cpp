@@ -3,16 +3,17 @@
 #include "leafhull/sweep.h"
 
 #include <algorithm>
-#include <cerrno>
 #include <chrono>
-#include <fstream>
-#include <iterator>
-#include <set>
-#include <system_error>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "leafhull/error.h"
 #include "leafhull/series.h"
-#include "output/write_error.h"
+#include "output/destination.h"
+#include "runs/read_file.h"
+#include "runs/run_folder.h"
 #include "sweep/journal.h"
 #include "sweep/plan.h"
 #include "sweep/plots.h"
@@ -26,35 +27,33 @@ namespace fs = std::filesystem;
 
 constexpr int kPictureWidth = 256, kPictureHeight = 256;
 
-/// The names in a sweep's folder.
-struct Files {
-  fs::path folder;
-  fs::path journal() const { return folder / "sweep.jsonl"; }
-  fs::path csv() const { return folder / "sweep.csv"; }
-  fs::path json() const { return folder / "sweep.json"; }
-  fs::path pictures() const { return folder / "pictures"; }
+/// What is where in a sweep's folder.
+class Files : public RunFolder {
+ public:
+  explicit Files(const fs::path& folder) : RunFolder(folder, "sweep"), folder_(folder) {}
+
+  const fs::path& folder() const { return folder_; }
+  fs::path journal() const { return folder_ / "sweep.jsonl"; }
+  fs::path csv() const { return folder_ / "sweep.csv"; }
+  fs::path json() const { return folder_ / "sweep.json"; }
+  fs::path pictures() const { return folder_ / "pictures"; }
+
+  /// Puts a result on the disk. A symbolic link stays, and its target is replaced.
+  void put(const fs::path& file, std::string_view bytes) {
+    write(resolve_destination(file), bytes);
+    sync();
+  }
+  void put(const fs::path& file, const Picture& picture) {
+    const std::vector<std::uint8_t> png = encode_png(picture);
+    put(file, {reinterpret_cast<const char*>(png.data()), png.size()});
+  }
+
+ private:
+  fs::path folder_;
 };
 
-void make_folder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) throw write_error(folder, error.value());
-}
-
-void remove_file(const fs::path& file) {
-  std::error_code error;
-  fs::remove(file, error);
-  if (error) throw write_error(file, error.value());
-}
-
-void write_picture(const fs::path& file, const Picture& picture) {
-  const std::vector<std::uint8_t> png = encode_png(picture);
-  write_file(file, {reinterpret_cast<const char*>(png.data()), png.size()});
-}
-
 Picture read_picture(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  const std::vector<char> bytes{std::istreambuf_iterator<char>(stream), {}};
+  const std::string bytes = content_of(file);
   return decode_png({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
 }
 
@@ -69,8 +68,8 @@ bool is_picture(const fs::path& file) {
 /// Every file that the sweep will have written at its end, but for the journal.
 std::vector<fs::path> results(const Files& files, const SweepPlan& plan) {
   std::vector<fs::path> all = {files.csv(), files.json()};
-  for (const std::string& plot : plot_files(plan)) all.push_back(files.folder / plot);
-  for (const Sheet& sheet : sheets(plan)) all.push_back(files.folder / sheet.file);
+  for (const std::string& plot : plot_files(plan)) all.push_back(files.folder() / plot);
+  for (const Sheet& sheet : sheets(plan)) all.push_back(files.folder() / sheet.file);
   for (std::size_t i = 0; i < plan.combinations.size(); ++i) {
     all.push_back(files.pictures() / picture_name(plan, i));
   }
@@ -86,43 +85,21 @@ void check_nothing_is_lost(const Files& files, const SweepPlan& plan) {
   }
 }
 
-/// Removes what a killed run was writing: .NAME.PID-COUNT.tmp beside NAME.
-void remove_unfinished(const Files& files, const SweepPlan& plan) {
-  std::set<fs::path> ours;
-  for (const fs::path& file : results(files, plan)) ours.insert(file);
-  for (const fs::path& folder : {files.folder, files.pictures()}) {
-    for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
-      const fs::path name = entry.path().filename();
-      const std::string beside = name.stem().stem().string();  // .NAME
-      if (name.extension() != ".tmp" || !beside.starts_with('.')) continue;
-      if (ours.contains(folder / beside.substr(1))) remove_file(entry.path());
-    }
-  }
-}
-
-bool is_result(const std::string& name) {
-  return name == "sweep.csv" || name == "sweep.json" ||
-         (name.starts_with("plot-") && name.ends_with(".svg")) ||
-         (name.starts_with("contact-sheet") && name.ends_with(".png"));
-}
-
 /// Removes what the sweep of `journal` has written, and nothing else.
 void remove_results(const Files& files, const Journal& journal) {
   if (journal.header().is_null()) return;
   for (const Json& result : journal.header().value("results", Json::array())) {
-    const std::string name = result.is_string() ? result.get<std::string>() : "";
-    if (is_result(name) && name.find('/') == std::string::npos) remove_file(files.folder / name);
+    remove_path(files.folder() / fs::path(result.get<std::string>()).filename());
   }
   for (const auto& [combination, row] : journal.rows()) {
-    const fs::path name = fs::path(row["picture"].get<std::string>()).filename();
-    if (name.extension() == ".png") remove_file(files.pictures() / name);
+    remove_path(files.pictures() / fs::path(row["picture"].get<std::string>()).filename());
   }
 }
 
 Json header_of(const Json& identity, const Files& files, const SweepPlan& plan) {
   Json header = identity;
   for (const fs::path& result : results(files, plan)) {
-    if (result.parent_path() == files.folder) {
+    if (result.parent_path() == files.folder()) {
       header["results"].push_back(result.filename().string());
     }
   }
@@ -171,7 +148,7 @@ void add_times(std::vector<StageTime>& sums, const std::vector<StageTime>& times
 
 /// Extracts what remains; each combination's picture, then its line of the journal.
 std::vector<StageTime> extract_remaining(const LeafSet& leaves, const SweepPlan& plan,
-                                         Device& device, const Files& files, Journal& journal,
+                                         Device& device, Files& files, Journal& journal,
                                          const SweepProgress& progress) {
   using Clock = std::chrono::steady_clock;
   const std::vector<std::size_t> todo = remaining(files, plan, journal);
@@ -188,8 +165,8 @@ std::vector<StageTime> extract_remaining(const LeafSet& leaves, const SweepPlan&
     tell("picture");
     const Clock::time_point begin = Clock::now();
     const std::string name = picture_name(plan, todo[index]);
-    write_picture(files.pictures() / name,
-                  draw_shape(entry.mesh, frame, kPictureWidth, kPictureHeight));
+    files.put(files.pictures() / name,
+              draw_shape(entry.mesh, frame, kPictureWidth, kPictureHeight));
     const std::chrono::duration<double> seconds = Clock::now() - begin;
     add_stage(entry.report.seconds, "picture", seconds.count());
     add_times(sums, entry.report.seconds);
@@ -203,20 +180,20 @@ std::vector<StageTime> extract_remaining(const LeafSet& leaves, const SweepPlan&
   return sums;
 }
 
-void write_tables(const Files& files, const SweepPlan& plan, const Journal& journal,
+void write_tables(Files& files, const SweepPlan& plan, const Journal& journal,
                   const RunDescription& run) {
-  write_file(files.csv(), csv(plan, journal.rows()));
-  write_file(files.json(), sweep_json(journal.header(), journal.rows(), run));
+  files.put(files.csv(), csv(plan, journal.rows()));
+  files.put(files.json(), sweep_json(journal.header(), journal.rows(), run));
 }
 
-void write_plots(const Files& files, const SweepPlan& plan, const Journal& journal,
+void write_plots(Files& files, const SweepPlan& plan, const Journal& journal,
                  const std::string& tree) {
   for (const Plot& plot : plots(plan, journal.rows(), tree)) {
-    write_file(files.folder / plot.file, svg(plot.chart));
+    files.put(files.folder() / plot.file, svg(plot.chart));
   }
 }
 
-void write_sheets(const Files& files, const SweepPlan& plan, const Journal& journal,
+void write_sheets(Files& files, const SweepPlan& plan, const Journal& journal,
                   const std::string& tree) {
   const std::vector<Sheet> pages = sheets(plan);
   for (std::size_t page = 0; page < pages.size(); ++page) {
@@ -233,7 +210,7 @@ void write_sheets(const Files& files, const SweepPlan& plan, const Journal& jour
     if (pages.size() > 1) {
       title += " (" + std::to_string(page + 1) + " of " + std::to_string(pages.size()) + ")";
     }
-    write_picture(files.folder / sheet.file, contact_sheet(title, pictures, sheet_columns(plan)));
+    files.put(files.folder() / sheet.file, contact_sheet(title, pictures, sheet_columns(plan)));
   }
 }
 
@@ -242,17 +219,17 @@ void write_sheets(const Files& files, const SweepPlan& plan, const Journal& jour
 SweepSummary run_sweep(const LeafSet& leaves, const SweepPlan& plan, Device& device,
                        const SweepFolder& folder, const RunDescription& run,
                        const SweepProgress& progress) {
-  const Files files{folder.path};
+  Files files(folder.path);
   const Json header = header_of(identity(leaves, plan, device.info()), files, plan);
   check_series(leaves, plan.combinations);
-  make_folder(files.folder);
+  files.make_folder(files.folder());
   if (!folder.restart && !fs::exists(files.journal())) check_nothing_is_lost(files, plan);
   Journal journal(files.journal());
   if (folder.restart) remove_results(files, journal);
   if (folder.restart || journal.rows().empty()) journal.begin(header);
-  check_same_sweep(journal.header(), header, files.folder);
-  make_folder(files.pictures());
-  remove_unfinished(files, plan);
+  check_same_sweep(journal.header(), header, files.folder());
+  files.make_folder(files.pictures());
+  files.remove_unfinished();
 
   SweepSummary summary;
   summary.combinations = plan.combinations.size();

@@ -137,7 +137,7 @@ std::string sweep_json(const Json& identity, const std::map<std::size_t, Json>& 
     json["rows"].push_back(row);
     json["rows"].back().erase("row");
   }
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return dumped(json, 2) + "\n";
 }
 
 }  // namespace leafhull

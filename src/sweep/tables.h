@@ -2,15 +2,13 @@
 #pragma once
 
 #include <map>
-#include <nlohmann/json.hpp>
 #include <string>
 
 #include "leafhull/series.h"
 #include "leafhull/sweep.h"
+#include "runs/sealed_json.h"
 
 namespace leafhull {
-
-using Json = nlohmann::ordered_json;
 
 /// A combination's line of the journal: parameters, counts, density, metrics and seconds as in a
 /// report; null where it could not be computed, which `failure` says why.

@@ -11,14 +11,14 @@
 #include <string>
 #include <vector>
 
-#include "forest/compute_tile.h"
-#include "forest/plan.h"
 #include "leafhull/series.h"
 #include "leafhull/shape.h"
 #include "property/area_measures.h"
 #include "property/area_trees.h"
 #include "property/canopies.h"
 #include "property/extractions.h"
+#include "tiles/compute_tile.h"
+#include "tiles/plan.h"
 
 namespace leafhull {
 namespace {
@@ -217,11 +217,10 @@ TEST(AreaSeries, SaysOfEachEntryWhatAnExtractionSays) {
 ForestLevel level_of_cards(const Scene& scene, int number, const Options& options,
                            double voxel_size) {
   const std::vector<LeafSet> models{find_leaves(test::card_tree(), {})};
-  const std::vector<ModelUse> uses = model_uses(scene);
   const std::vector<Options> shapes(models.size(), options);
-  const ForestLevel finest = prepare_level(0, models, uses, shapes, voxel_size, nullptr, device());
+  const ForestLevel finest = prepare_level(0, scene, models, shapes, voxel_size, nullptr, device());
   return number == 0 ? finest
-                     : prepare_level(number, models, uses, shapes, voxel_size, &finest, device());
+                     : prepare_level(number, scene, models, shapes, voxel_size, &finest, device());
 }
 
 /// The triangles of all tiles, in world coordinates.
@@ -269,7 +268,7 @@ TEST(AreaForest, OfATreeTwiceAsLargeIsTheTreeInVoxels) {
   options.voxel_size = 2 * h;
   const ForestLevel level = level_of_cards(scene, 0, options, 2 * h);
   EXPECT_NEAR(level.threshold / alone.report.threshold, 1, 1e-4);
-  const std::vector<Corners> triangles = canopy(scene, level, 64);
+  const std::vector<Corners> triangles = canopy(level, 64);
   EXPECT_NEAR(volume(triangles) / std::pow(2 * h, 3) / (volume(alone.mesh) / std::pow(h, 3)), 1,
               0.002);
   EXPECT_NEAR(static_cast<double>(cells_inside(triangles, 2 * h)) /
@@ -287,7 +286,7 @@ TEST(AreaForest, DoesNotDependOnTheCut) {
     using Place = std::array<std::array<double, 3>, 3>;
     const auto places = [&](int edge) {
       std::multiset<Place> all;
-      for (const auto& [a, b, c] : canopy(scene, level, edge)) {
+      for (const auto& [a, b, c] : canopy(level, edge)) {
         Place p{{{a.x, a.y, a.z}, {b.x, b.y, b.z}, {c.x, c.y, c.z}}};
         std::rotate(p.begin(), std::ranges::min_element(p), p.end());
         all.insert(p);

@@ -6,10 +6,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "forest/compute_tile.h"
-#include "forest/plan.h"
 #include "property/area_measures.h"
 #include "property/extractions.h"
+#include "tiles/compute_tile.h"
+#include "tiles/plan.h"
 
 namespace leafhull::test {
 
@@ -19,12 +19,12 @@ inline PlacedTree placed(std::uint32_t model, Vec3d position, double yaw, double
   return {position, {c, 0, s, 0, static_cast<float>(scale), 0, -s, 0, c}, model};
 }
 
-inline std::vector<Corners> canopy(const Scene& scene, const ForestLevel& level, int edge) {
+inline std::vector<Corners> canopy(const ForestLevel& level, int edge) {
   std::vector<Corners> all;
-  const TilePlan plan(scene, level, edge);
+  const TilePlan plan(level, edge);
   for (std::size_t t = 0; t < plan.size(); ++t) {
     const TileTask task{plan.tiles()[t], edge, plan.trees(t)};
-    const std::vector<Corners> part = corners_of(compute_tile(scene, level, task, device()).mesh);
+    const std::vector<Corners> part = corners_of(compute_tile(level, task, device()).mesh);
     all.insert(all.end(), part.begin(), part.end());
   }
   return all;

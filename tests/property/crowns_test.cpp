@@ -8,13 +8,13 @@
 #include <utility>
 #include <vector>
 
-#include "forest/compute_tile.h"
-#include "forest/plan.h"
 #include "leafhull/shape.h"
 #include "property/area_measures.h"
 #include "property/area_trees.h"
 #include "property/canopies.h"
 #include "property/extractions.h"
+#include "tiles/compute_tile.h"
+#include "tiles/plan.h"
 
 namespace leafhull {
 namespace {
@@ -171,11 +171,10 @@ std::vector<Corners> canopy_of_crown(const PlacedTree& tree, const Options& opti
   scene.models.resize(1);
   scene.trees = {tree};
   const std::vector<LeafSet> models{find_leaves(low_poly_crown(), {})};
-  const std::vector<ModelUse> uses = model_uses(scene);
   const std::vector<Options> shapes{options};
   const ForestLevel level =
-      prepare_level(0, models, uses, shapes, *options.voxel_size, nullptr, device());
-  return canopy(scene, level, edge);
+      prepare_level(0, scene, models, shapes, *options.voxel_size, nullptr, device());
+  return canopy(level, edge);
 }
 
 TEST(ClosedCrown, IsTheSameInAForest) {

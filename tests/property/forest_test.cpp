@@ -10,10 +10,10 @@
 #include <random>
 #include <set>
 
-#include "forest/compute_tile.h"
-#include "forest/plan.h"
 #include "property/canopies.h"
 #include "property/extractions.h"
+#include "tiles/compute_tile.h"
+#include "tiles/plan.h"
 
 namespace leafhull {
 namespace {
@@ -84,13 +84,12 @@ Point point(const Mesh& mesh, std::uint32_t v) {
 }
 
 /// All tiles together, corners of a triangle beginning with the least.
-Surface surface_of(const Scene& scene, const ForestLevel& level, int edge) {
+Surface surface_of(const ForestLevel& level, int edge) {
   Surface all;
-  const TilePlan plan(scene, level, edge);
+  const TilePlan plan(level, edge);
   std::map<std::pair<Coord, std::uint32_t>, Point> shared;
   for (std::size_t t = 0; t < plan.size(); ++t) {
-    const TileSurface tile =
-        compute_tile(scene, level, {plan.tiles()[t], edge, plan.trees(t)}, device());
+    const TileSurface tile = compute_tile(level, {plan.tiles()[t], edge, plan.trees(t)}, device());
     all.own += tile.own_vertices;
     for (std::uint32_t v = 0; v < tile.mesh.positions.size(); ++v)
       all.points.insert(point(tile.mesh, v));
@@ -125,11 +124,11 @@ std::size_t open_edges(const Surface& surface) {
 
 ForestLevel level_of(const Scene& scene, int number = 0, const Options& resolved = options()) {
   const std::vector<LeafSet> models{crown(1, 900, 3), crown(2, 500, 2)};
-  const std::vector<ModelUse> uses = model_uses(scene);
   const std::vector<Options> shapes(models.size(), resolved);
-  const ForestLevel finest = prepare_level(0, models, uses, shapes, 0.2, nullptr, device());
+  const ForestLevel finest = prepare_level(0, scene, models, shapes, 0.2, nullptr, device());
   // Its `least` stays 0: small pieces over seams are known once all tiles are.
-  return number == 0 ? finest : prepare_level(number, models, uses, shapes, 0.2, &finest, device());
+  return number == 0 ? finest
+                     : prepare_level(number, scene, models, shapes, 0.2, &finest, device());
 }
 
 void expect_same_surface(const Surface& a, const Surface& b) {
@@ -141,21 +140,21 @@ void expect_same_surface(const Surface& a, const Surface& b) {
 TEST(Forest, TilesMeetWithoutCracksAndDoNotDependOnTheCut) {
   const Scene scene = grove({-15, 0, -15});
   const ForestLevel level = level_of(scene);
-  const Surface whole = surface_of(scene, level, 512);
+  const Surface whole = surface_of(level, 512);
   EXPECT_GT(whole.triangles.size(), 50000u);
   EXPECT_EQ(open_edges(whole), 0u);
   for (const int edge : {32, 64, 96}) {
     SCOPED_TRACE(edge);
-    expect_same_surface(surface_of(scene, level, edge), whole);
+    expect_same_surface(surface_of(level, edge), whole);
   }
 }
 
 TEST(Forest, FarFromTheOriginToo) {
   const Scene scene = grove({300000, 0, -200000});
   const ForestLevel level = level_of(scene);
-  const Surface whole = surface_of(scene, level, 512);
+  const Surface whole = surface_of(level, 512);
   EXPECT_EQ(open_edges(whole), 0u);
-  expect_same_surface(surface_of(scene, level, 64), whole);
+  expect_same_surface(surface_of(level, 64), whole);
 }
 
 TEST(Forest, WithControlOverTheScene) {
@@ -163,7 +162,7 @@ TEST(Forest, WithControlOverTheScene) {
   ForestLevel level = level_of(scene);
   level.scope = ControlScope::scene;
   level.scene_statistics = DensityStatistics{.mean = 8, .variance = 9, .p1 = 8, .p2 = 14};
-  expect_same_surface(surface_of(scene, level, 64), surface_of(scene, level, 512));
+  expect_same_surface(surface_of(level, 64), surface_of(level, 512));
 }
 
 /// Kernels around a tile have their radii from trees that are farther than any kernel of them.
@@ -176,18 +175,18 @@ TEST(Forest, WithControlByTreesThatReachOnlyItsNeighbours) {
   level.scope = ControlScope::scene;
   level.threshold = 20;
   level.scene_statistics = DensityStatistics{.mean = 8, .variance = 9, .p1 = 300, .p2 = 2000};
-  const Surface whole = surface_of(scene, level, 512);
+  const Surface whole = surface_of(level, 512);
   EXPECT_GT(whole.triangles.size(), 1000u);
-  expect_same_surface(surface_of(scene, level, 32), whole);
+  expect_same_surface(surface_of(level, 32), whole);
 }
 
 TEST(Forest, OnALevelOfAbstraction) {
   const Scene scene = grove({-15, 0, -15});
   const ForestLevel level = level_of(scene, 2);
-  const Surface whole = surface_of(scene, level, 512);
+  const Surface whole = surface_of(level, 512);
   EXPECT_GT(whole.triangles.size(), 500u);
   EXPECT_EQ(open_edges(whole), 0u);
-  expect_same_surface(surface_of(scene, level, 32), whole);
+  expect_same_surface(surface_of(level, 32), whole);
 }
 
 }  // namespace

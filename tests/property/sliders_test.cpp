@@ -11,8 +11,6 @@
 #include <utility>
 #include <vector>
 
-#include "forest/compute_tile.h"
-#include "forest/plan.h"
 #include "leafhull/error.h"
 #include "leafhull/series.h"
 #include "leafhull/shape.h"
@@ -21,6 +19,8 @@
 #include "property/area_trees.h"
 #include "property/canopies.h"
 #include "property/extractions.h"
+#include "tiles/compute_tile.h"
+#include "tiles/plan.h"
 
 namespace leafhull {
 namespace {
@@ -358,15 +358,15 @@ Forest forest_of(const Options& options) {
   forest.models = {cards(), more_cards()};
   const std::vector<ModelUse> uses = model_uses(forest.scene);
   forest.shapes = shapes_of(forest.models, uses, options, device());
-  forest.level =
-      prepare_level(0, forest.models, uses, forest.shapes, *options.voxel_size, nullptr, device());
+  forest.level = prepare_level(0, forest.scene, forest.models, forest.shapes, *options.voxel_size,
+                               nullptr, device());
   return forest;
 }
 
 /// The triangles of a forest near its first tree, or near the other.
 std::vector<test::Corners> canopy_of(const Forest& forest, bool other) {
   std::vector<test::Corners> all;
-  for (const auto& corners : canopy(forest.scene, forest.level, 128)) {
+  for (const auto& corners : canopy(forest.level, 128)) {
     if ((corners[0].x > 10) == other) all.push_back(corners);
   }
   return all;

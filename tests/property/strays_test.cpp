@@ -8,13 +8,13 @@
 #include <string>
 #include <vector>
 
-#include "forest/level.h"
 #include "leafhull/error.h"
 #include "leafhull/render.h"
 #include "leafhull/sweep.h"
 #include "property/area_measures.h"
 #include "property/extractions.h"
 #include "render/buffers.h"
+#include "tiles/level.h"
 
 namespace leafhull {
 namespace {

@@ -7,7 +7,6 @@
 #include <fstream>
 #include <iostream>
 #include <set>
-#include <sstream>
 #include <stdexcept>
 #include <vector>
 
@@ -61,24 +60,18 @@ void write(const std::filesystem::path& file, const std::string& bytes) {
   if (!stream.flush()) throw std::runtime_error(file.string() + " cannot be written");
 }
 
-std::string name_of(const TileId& id) {
-  std::ostringstream name;
-  name << id.level << "/" << id.at.x << "_" << id.at.y << "_" << id.at.z << ".glb";
-  return name.str();
-}
-
 void write_sample(const std::filesystem::path& folder) {
   std::filesystem::remove_all(folder);
-  std::vector<FinishedTile> tiles;
+  std::vector<TileRecord> tiles;
   for (const TileId& id : tile_ids()) {
     const Mesh mesh = ball(id);
     const std::string glb = written([&](std::ostream& stream) { write_glb(mesh, stream); });
-    write(folder / "tiles" / name_of(id), glb);
-    tiles.push_back({.id = id,
-                     .mesh = {.bytes = glb.size(), .sha256 = "not looked at"},
-                     .vertices = mesh.positions.size(),
-                     .triangles = mesh.triangles.size(),
-                     .bounds = bounds_of(mesh)});
+    write(folder / file_of(id), glb);
+    TileRecord& tile = tiles.emplace_back(id);
+    tile.mesh = {.bytes = glb.size(), .sha256 = "not looked at"};
+    tile.vertices = mesh.positions.size();
+    tile.triangles = mesh.triangles.size();
+    tile.bounds = bounds_of(mesh);
   }
   write(folder / "tileset.json", tileset_json(tiles, kErrors));
 }

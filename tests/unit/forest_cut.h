@@ -11,9 +11,9 @@
 #include <tuple>
 #include <vector>
 
-#include "forest/tile.h"
 #include "leafhull/shape.h"
 #include "surface/brick_mesher.h"
+#include "tiles/tile.h"
 #include "unit/surface_test_fields.h"
 
 namespace leafhull::test {

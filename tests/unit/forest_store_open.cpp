@@ -58,7 +58,7 @@ TEST_F(ForestStore, TellsWhatIsDone) {
   const Store store(folder.path(), plan(), "other", true, false);
   ASSERT_EQ(store.done().size(), 1u);
   const TileRecord& found = store.done().at(id);
-  EXPECT_EQ(found.id, id);
+  EXPECT_EQ(found.id(), id);
   EXPECT_EQ(found.vertices, tile.mesh.positions.size());
   EXPECT_EQ(found.triangles, tile.mesh.triangles.size());
   EXPECT_EQ(found.own_vertices, tile.own_vertices);

@@ -6,9 +6,10 @@
 #include <fstream>
 #include <iterator>
 
-#include "forest/sealed_json.h"
 #include "forest/store.h"
 #include "leafhull/error.h"
+#include "runs/checksum.h"
+#include "runs/sealed_json.h"
 #include "unit/forest_cut.h"
 #include "unit/temporary_folder.h"
 
@@ -83,11 +84,7 @@ inline ExactVolume voxels(double count) {
 /// Drops balls of a radius below 1.5 or so.
 inline SmallPieces small_pieces() { return {.least = {voxels(14)}}; }
 
-inline TileRecord record(const TileId& id) {
-  TileRecord record;
-  record.id = id;
-  return record;
-}
+inline TileRecord record(const TileId& id) { return TileRecord(id); }
 
 /// Puts what is missing, and finishes.
 inline FinishedForest finish(Store& store, const Tiles& tiles, const fs::path& single) {

@@ -163,10 +163,10 @@ TEST_F(ForestWeld, PutsEveryTileInPlace) {
   const Welded expected = expected_weld(sample(), kEdge, small_pieces().least[0]);
   std::size_t triangles = 0, lighter = 0;
   std::set<fs::path> files;
-  for (const FinishedTile& tile : forest.tiles) {
-    const TileSurface& before = tiles.at(tile.id);
-    const std::string name = std::to_string(tile.id.at.x) + "_" + std::to_string(tile.id.at.y) +
-                             "_" + std::to_string(tile.id.at.z) + ".glb";
+  for (const TileRecord& tile : forest.tiles) {
+    const TileSurface& before = tiles.at(tile.id());
+    const std::string name = std::to_string(tile.x) + "_" + std::to_string(tile.y) + "_" +
+                             std::to_string(tile.z) + ".glb";
     const fs::path file = folder / "tiles" / "0" / name;
     files.insert(file);
     EXPECT_EQ(tile.mesh.sha256, record_of_file(file).sha256);
@@ -186,11 +186,11 @@ TEST_F(ForestWeld, PutsEveryTileInPlace) {
   EXPECT_EQ(triangles, expected.mesh.triangles.size());
   EXPECT_GT(lighter, 0u);
   EXPECT_TRUE(std::is_sorted(forest.tiles.begin(), forest.tiles.end(),
-                             [](const auto& a, const auto& b) { return a.id < b.id; }));
+                             [](const auto& a, const auto& b) { return a.id() < b.id(); }));
   // Those that have lost everything have no file.
   std::size_t lost = 0;
   for (const auto& [id, tile] : tiles) {
-    const auto is_it = [&, wanted = id](const FinishedTile& found) { return found.id == wanted; };
+    const auto is_it = [&, wanted = id](const TileRecord& found) { return found.id() == wanted; };
     lost += !tile.mesh.triangles.empty() &&
             std::none_of(forest.tiles.begin(), forest.tiles.end(), is_it);
   }
@@ -215,7 +215,7 @@ TEST_F(ForestWeld, TakesLevelsOneByOne) {
   EXPECT_EQ(forest.dropped_components, 4u);
   expect_equal(read_ply(content(folder / "all.ply"), false),
                expected_weld(sample(), kEdge, 0).mesh);
-  EXPECT_EQ(forest.tiles.back().id.level, 1);
+  EXPECT_EQ(forest.tiles.back().level, 1);
 }
 
 TEST_F(ForestWeld, ATileMayHaveVerticesAlone) {

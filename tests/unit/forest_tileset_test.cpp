@@ -20,23 +20,18 @@ using nlohmann::json;
 constexpr std::array kErrors{0.25, 0.75, 2.0, 6.0};
 
 /// A tile with a surface in a part of its cube, cubes of level 0 being of edge 16.
-FinishedTile tile(int level, Coord at) {
+TileRecord tile(int level, Coord at) {
   const double edge = 16.0 * (1 << level);
-  FinishedTile tile;
-  tile.id = {level, at};
+  TileRecord tile({level, at});
   tile.mesh = {.bytes = 1, .sha256 = "a"};
   tile.bounds.include((to_vec3d(at) + Vec3d{0.1, 0.2, 0.3}) * edge);
   tile.bounds.include((to_vec3d(at) + Vec3d{0.7, 0.8, 0.9}) * edge);
   return tile;
 }
 
-FinishedTile empty_tile(int level, Coord at) {
-  FinishedTile empty;
-  empty.id = {level, at};
-  return empty;
-}
+TileRecord empty_tile(int level, Coord at) { return TileRecord({level, at}); }
 
-json tileset(const std::vector<FinishedTile>& tiles) {
+json tileset(const std::vector<TileRecord>& tiles) {
   return json::parse(tileset_json(tiles, kErrors));
 }
 
@@ -68,10 +63,10 @@ std::vector<std::string> uris(const json& tileset) {
 }
 
 /// What must hold between any tile and its ancestors, and that all surfaces are there, once each.
-void check(const json& tileset, const std::vector<FinishedTile>& tiles) {
+void check(const json& tileset, const std::vector<TileRecord>& tiles) {
   std::map<std::string, Box> surfaces;
-  for (const FinishedTile& tile : tiles) {
-    if (!tile.mesh.sha256.empty()) surfaces[uri(tile.id)] = tile.bounds;
+  for (const TileRecord& tile : tiles) {
+    if (!tile.mesh.sha256.empty()) surfaces[uri(tile.id())] = tile.bounds;
   }
   std::vector<std::string> expected;
   for (const auto& [name, bounds] : surfaces) expected.push_back(name);
@@ -103,7 +98,7 @@ void check(const json& tileset, const std::vector<FinishedTile>& tiles) {
 }
 
 TEST(Tileset, HasOneTileForASingleSurface) {
-  const FinishedTile only = tile(0, {1, 2, 3});
+  const TileRecord only = tile(0, {1, 2, 3});
   const json tileset = test::tileset({only});
   EXPECT_EQ(tileset["asset"]["version"], "1.1");
   EXPECT_EQ(tileset["asset"]["extras"]["generator"], std::string("leafhull ") + kVersion);
@@ -116,7 +111,7 @@ TEST(Tileset, HasOneTileForASingleSurface) {
 }
 
 TEST(Tileset, TurnsBoxesUpright) {
-  FinishedTile flat = tile(0, {});
+  TileRecord flat = tile(0, {});
   flat.bounds = {};
   flat.bounds.include({10, 100, -7});  // y is up, as in glTF
   flat.bounds.include({12, 104, -1});
@@ -196,7 +191,7 @@ TEST(Tileset, NeedsASurface) {
 }
 
 /// Tiles of four levels around the origin; a tenth of the coarser ones are missing.
-std::vector<FinishedTile> forest(int edge, std::uint32_t seed) {
+std::vector<TileRecord> forest(int edge, std::uint32_t seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> place(0, 16);
   std::set<TileId> ids;
@@ -208,9 +203,9 @@ std::vector<FinishedTile> forest(int edge, std::uint32_t seed) {
       }
     }
   }
-  std::vector<FinishedTile> tiles;
+  std::vector<TileRecord> tiles;
   for (const TileId& id : ids) {
-    FinishedTile tile = test::tile(id.level, id.at);
+    TileRecord tile = test::tile(id.level, id.at);
     const Vec3d corner = to_vec3d(id.at) * (16.0 * (1 << id.level));
     for (int i = 0; i < 2; ++i) {  // numbers with no end in binary
       tile.bounds.include(corner + Vec3d{place(random), place(random), place(random)});
@@ -221,19 +216,19 @@ std::vector<FinishedTile> forest(int edge, std::uint32_t seed) {
 }
 
 TEST(Tileset, HoldsForAForest) {
-  const std::vector<FinishedTile> tiles = forest(12, 1);
+  const std::vector<TileRecord> tiles = forest(12, 1);
   check(tileset(tiles), tiles);
 }
 
 TEST(Tileset, DoesNotDependOnTheOrderOfTiles) {
-  std::vector<FinishedTile> tiles = forest(6, 2);
+  std::vector<TileRecord> tiles = forest(6, 2);
   const std::string text = tileset_json(tiles, kErrors);
   std::ranges::reverse(tiles);
   EXPECT_EQ(tileset_json(tiles, kErrors), text);
 }
 
 TEST(Tileset, WritesATilePerLine) {
-  const std::vector<FinishedTile> tiles = forest(3, 3);
+  const std::vector<TileRecord> tiles = forest(3, 3);
   const std::string text = tileset_json(tiles, kErrors);
   std::size_t count = 0;
   visit_tiles(json::parse(text)["root"], [&](const json&, const auto&) { ++count; });

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <random>
 
-#include "forest/gather.h"
-#include "forest/tree_map.h"
+#include "tiles/gather.h"
+#include "tiles/tree_map.h"
 #include "unit/density_reference.h"
 
 namespace leafhull {
@@ -58,9 +58,8 @@ TEST(TreeMap, CarriesAKernelWithItsWeight) {
 }
 
 TEST(PlacedKernels, AddUpToTheDensitiesOfTheTrees) {
-  Scene scene;
-  scene.trees = kTrees;
   ForestLevel level;
+  level.trees = kTrees;
   level.voxel_size = 0.1;
   level.reach = 3;
   ForestModel& model = level.models.emplace_back();
@@ -76,7 +75,7 @@ TEST(PlacedKernels, AddUpToTheDensitiesOfTheTrees) {
   for (const int k : {1, 2, 3}) {
     level.options.falloff = k;
     const KernelSet set = placed_kernels(
-        scene, level, runs, lattice,
+        level, runs, lattice,
         [](const ForestModel& of, std::size_t j, std::size_t) { return of.kernels[j]; });
     int above = 0;
     for (int i = 0; i < 300; ++i) {

@@ -7,6 +7,7 @@
 #include <iterator>
 
 #include "leafhull/error.h"
+#include "runs/sealed_json.h"
 #include "sweep/journal.h"
 #include "sweep/plan.h"
 #include "unit/temporary_folder.h"
@@ -64,7 +65,7 @@ TEST_F(SweepJournal, EveryCutLosesAtMostTheLastLine) {
     EXPECT_EQ(journal.rows().size(), 2u) << size;
     const Json shorter = {{"row", 2}, {"picture", ""}};
     journal.append(shorter);
-    EXPECT_EQ(content(file), whole.substr(0, last) + shorter.dump() + "\n");
+    EXPECT_EQ(content(file), whole.substr(0, last) + dumped(sealed(shorter)) + "\n");
   }
 }
 
@@ -72,6 +73,18 @@ TEST_F(SweepJournal, ALineThatIsNoRowDoesNotCount) {
   fill(1);
   write(file, content(file) + std::string(20, '\0') + "\n{\"row\":\"x\"}\n[1]\n");
   EXPECT_EQ(Journal(file).rows().size(), 1u);
+}
+
+TEST_F(SweepJournal, ALineThatIsDamagedDoesNotCount) {
+  fill(3);
+  std::string text = content(file);
+  const std::size_t at = text.find("0.1");
+  ASSERT_NE(at, std::string::npos);
+  text[at + 2] = '7';
+  write(file, text);
+  const Journal journal(file);
+  EXPECT_EQ(journal.rows().size(), 2u);
+  EXPECT_FALSE(journal.rows().contains(1));
 }
 
 TEST_F(SweepJournal, BeginsAnew) {

@@ -99,6 +99,10 @@ TEST(SweepPlan, TellsSweepsApart) {
   moved.vertices[0].position.z = std::nextafter(3, 4);
   EXPECT_NE(difference(moved, same, kDevice).find("tree"), std::string::npos);
 
+  LeafSet counted = leaf();
+  counted.leaf_count = 2;
+  EXPECT_NE(difference(counted, same, kDevice).find("tree"), std::string::npos);
+
   DeviceInfo other = kDevice;
   other.name = "slide rule";
   EXPECT_NE(difference(leaf(), same, other).find("slide rule"), std::string::npos);

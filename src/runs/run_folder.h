@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <mutex>
+#include <ostream>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "output/temporary_file.h"
+#include "runs/checksum.h"
+
+namespace leafhull {
+
+/// How a run puts files into its folder: each appears whole or not at all, and its content is on
+/// the disk before it has its name. Folders are made where they are missing. Any thread may call.
+class RunFolder {
+ public:
+  /// @param unfinished the folder that files are written in before they get their names.
+  /// @param writer     tells the unfinished files of this process from those of others.
+  RunFolder(std::filesystem::path unfinished, std::string writer)
+      : unfinished_(std::move(unfinished)), writer_(std::move(writer)) {}
+
+  const std::string& writer() const { return writer_; }
+
+  using Fill = std::function<void(std::ostream&)>;
+
+  /// Writes `file`, whose permissions stay where it exists. Where it is on another file system than
+  /// the unfinished files, it is written beside its place.
+  /// @param before called once the content is on the disk.
+  /// @throws Error output; the file is then as before.
+  FileRecord write(const std::filesystem::path& file, const Fill& fill,
+                   const std::function<void(const FileRecord&)>& before = {});
+  FileRecord write(const std::filesystem::path& file, std::string_view bytes);
+  /// Writes `file` unless it is there; its name is on the disk then. @throws Error output.
+  void write_once(const std::filesystem::path& file, std::string_view bytes);
+  /// Gives `file`, a whole one, a second name, or copies it where the file system knows but one.
+  /// @throws Error output, or input: it cannot be read.
+  void link(const std::filesystem::path& file, const std::filesystem::path& name);
+
+  /// Makes a folder where it is missing. @throws Error output.
+  void make_folder(const std::filesystem::path& folder);
+
+  /// Brings the names of all files so far to the disk: what is said of them after that holds.
+  /// @throws Error output.
+  void sync();
+
+  /// Removes what an earlier process of this writer's name has left half-written.
+  void remove_unfinished() const;
+
+ private:
+  TemporaryFile filled(const std::filesystem::path& file, const Fill& fill);
+  void named(const std::filesystem::path& file);
+
+  std::filesystem::path unfinished_;
+  std::string writer_;
+  std::mutex mutex_;
+  std::set<std::filesystem::path> made_, unsynced_;  ///< folders
+};
+
+/// Names such as RunFolder gives to files that are being written.
+bool is_unfinished(const std::string& name);
+
+/// What is in a folder, ascending; nothing where there is none.
+std::vector<std::filesystem::path> entries_of(const std::filesystem::path& folder);
+
+/// Removes a file, or a folder where it is empty. @throws Error output.
+void remove_path(const std::filesystem::path& path);
+
+}  // namespace leafhull

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "leafhull/device.h"
+#include "tiles/level.h"
+#include "tiles/plan.h"
+#include "tiles/tile.h"
+
+namespace leafhull {
+
+/// The surface N = T of all trees' densities together in a tile. It depends on the scene and the
+/// level alone: another edge gives the same vertices and triangles.
+TileSurface compute_tile(const ForestLevel& level, const TileTask& task, Device& device);
+
+/// N_iso, neighbours included, at the leaf points in a tile.
+std::vector<WeightedDensity> isotropic_density_in(const ForestLevel& level, const TileTask& task,
+                                                  Device& device);
+
+/// N at the places on leaves in a tile.
+std::vector<WeightedDensity> density_in(const ForestLevel& level, const TileTask& task,
+                                        Device& device);
+
+}  // namespace leafhull

@@ -1,0 +1,88 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What a power cut leaves: content comes to the disk before its name, names before a journal tells
+of them."""
+
+import os
+import pathlib
+import unittest
+
+from forests import COARSE, ForestTest, files_in
+
+PRELOADED = os.environ.get("DISK_CALLS_LIBRARY", "")
+DRAFT = ("--preset", "draft")
+TILED = (*COARSE, "--tile", "32", "--levels", "2")
+
+
+@unittest.skipUnless(PRELOADED, "nothing is known of the calls: DISK_CALLS_LIBRARY is not set")
+class Disk(ForestTest):
+    def setUp(self):
+        super().setUp()
+        self.log = self.folder / "calls"
+
+    def calls_of(self, *arguments):
+        self.log.write_text("")
+        self.succeed(*arguments, env={"LD_PRELOAD": PRELOADED, "DISK_CALLS": str(self.log)})
+        calls = [line.split("\t") for line in self.log.read_text().splitlines()]
+        return [call for call in calls if call[1].startswith(str(self.out))]
+
+    def assert_lasts(self, calls):
+        """Plays the calls on a disk that keeps only what it was told to."""
+        content, names = set(), set()  # files and folders that are not on it
+        renamed = 0
+        for call, file, name in calls:
+            if call == "write":
+                content.add(file)
+                if file.endswith(".jsonl"):
+                    self.assertEqual(names, set(), f"before a line of {file}")
+            elif call == "fsync":
+                content.discard(file)
+                names.discard(file)
+            else:
+                renamed += 1
+                self.assertNotIn(file, content, f"{name} gets its name before its content")
+                if not name.endswith(".tmp"):
+                    names.add(os.path.dirname(name))
+        self.assertEqual({file for file in content if pathlib.Path(file).exists()}, set())
+        self.assertEqual(names, set(), "names that are not on the disk")
+        return renamed
+
+    def test_a_shape(self):
+        flags = ("extract", self.tree, *DRAFT, "-o", self.shape, "--report", self.out / "shape.json")
+        self.assertEqual(self.assert_lasts(self.calls_of(*flags)), 2)
+        again = self.calls_of(*flags)
+        self.assertEqual(self.assert_lasts(again), 2)
+        self.assertEqual([call for call, *_ in again].count("exchange"), 2)
+
+    def test_a_sweep(self):
+        flags = ("sweep", self.tree, *DRAFT, "--threshold", "1,2", "-o", self.out)
+        self.assertGreaterEqual(self.assert_lasts(self.calls_of(*flags)), 5)
+        self.assertGreaterEqual(self.assert_lasts(self.calls_of(*flags, "--restart")), 5)
+
+    def test_a_forest(self):
+        flags = ("forest", self.scatter(20), *TILED, "-o", self.out, "--single",
+                 self.out / "all.glb", "--min-component", "0.3")  # fmt: skip
+        calls = self.calls_of(*flags)
+        tiles = sum("/tiles/" in name for _, _, name in calls)
+        self.assertGreater(tiles, 5)
+        self.assertGreater(self.assert_lasts(calls), 3 * tiles)
+        self.assert_lasts(self.calls_of(*flags, "--restart"))
+
+    def test_a_forest_of_instances(self):
+        flags = ("forest", self.scatter(20), *COARSE, "--merge", "none", "-o", self.out)
+        self.assertGreaterEqual(self.assert_lasts(self.calls_of(*flags)), 3)
+
+    def test_a_disk_that_takes_nothing(self):
+        self.shape.write_text("before")
+        scene = self.scatter(5)
+        for flags in (
+            ("extract", self.tree, *DRAFT, "-o", self.shape),
+            ("sweep", self.tree, *DRAFT, "--threshold", "1,2", "-o", self.out / "sweep"),
+            ("forest", scene, *TILED, "-o", self.out / "forest"),
+        ):
+            env = {"LD_PRELOAD": PRELOADED, "DISK_CALLS_FAIL": "1"}
+            result = self.run_command(*flags, env=env)
+            self.assertEqual(result.returncode, 5, result.stderr)
+            self.assertIn("Input/output error", result.stderr)
+        left = files_in(self.out)
+        self.assertEqual(left.pop("shape.glb"), b"before")
+        self.assertEqual({data for data in left.values()} - {b""}, set(), left.keys())
