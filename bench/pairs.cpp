@@ -10,7 +10,7 @@
 
 #include "density/points.h"
 #include "pipeline/grid.h"
-#include "surface/volume.h"
+#include "surface/density_grid.h"
 
 namespace leafhull::bench {
 namespace {

@@ -12,7 +12,7 @@
 
 #include "bench/leafhull_case.h"
 #include "leafhull/shape.h"
-#include "surface/volume.h"
+#include "surface/density_grid.h"
 
 namespace leafhull::bench {
 namespace {

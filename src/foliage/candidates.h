@@ -10,7 +10,7 @@
 #include "foliage/levels.h"
 #include "foliage/names.h"
 #include "leafhull/leaves.h"
-#include "leaves/components.h"
+#include "leaves/leaf_components.h"
 
 namespace leafhull {
 

@@ -11,7 +11,7 @@
 #include <span>
 
 #include "foliage/appearance.h"
-#include "leaves/components.h"
+#include "leaves/leaf_components.h"
 
 namespace leafhull {
 namespace {

@@ -4,7 +4,7 @@
 #include <map>
 #include <string>
 
-#include "forest/identity.h"
+#include "forest/forest_identity.h"
 #include "forest/instances.h"
 #include "forest/store.h"
 #include "leafhull/error.h"

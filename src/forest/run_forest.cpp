@@ -12,7 +12,7 @@
 #include <utility>
 
 #include "density/control.h"
-#include "forest/identity.h"
+#include "forest/forest_identity.h"
 #include "forest/merge_none.h"
 #include "forest/store.h"
 #include "forest/tileset.h"
@@ -22,9 +22,9 @@
 #include "pipeline/memory.h"
 #include "pipeline/stopwatch.h"
 #include "tiles/compute_tile.h"
-#include "tiles/plan.h"
 #include "tiles/scene_control.h"
 #include "tiles/tile_count.h"
+#include "tiles/tile_plan.h"
 
 namespace leafhull {
 namespace {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "leafhull/leaves.h"
-#include "leaves/components.h"
 #include "leaves/ellipse.h"
+#include "leaves/leaf_components.h"
 #include "leaves/sheets.h"
 
 namespace leafhull {

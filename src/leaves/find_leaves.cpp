@@ -11,8 +11,8 @@
 #include "leafhull/leaves.h"
 #include "leaves/alpha_mask.h"
 #include "leaves/collect_leaves.h"
-#include "leaves/components.h"
 #include "leaves/crown.h"
+#include "leaves/leaf_components.h"
 #include "leaves/order.h"
 
 namespace leafhull {

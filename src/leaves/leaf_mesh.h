@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "leaves/components.h"
+#include "leaves/leaf_components.h"
 
 namespace leafhull {
 

@@ -23,7 +23,7 @@
 #include "output/transaction.h"
 #include "output/vdb.h"
 #include "output/writers.h"
-#include "surface/volume.h"
+#include "surface/density_grid.h"
 #include "text/file_name.h"
 
 namespace leafhull {

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "chart/chart.h"
-#include "study/band.h"
+#include "study/band_study.h"
 
 namespace leafhull {
 namespace {

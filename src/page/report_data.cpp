@@ -11,9 +11,9 @@
 #include "page/figures.h"
 #include "page/pictures_data.h"
 #include "page/typeset.h"
-#include "study/band.h"
+#include "study/band_study.h"
 #include "study/numbers.h"
-#include "study/plan.h"
+#include "study/study_plan.h"
 #include "study/verdicts.h"
 
 namespace leafhull {

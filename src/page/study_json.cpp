@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "study/band.h"
+#include "study/band_study.h"
 #include "study/verdicts.h"
 
 namespace leafhull {

@@ -7,8 +7,8 @@
 #include "output/transaction.h"
 #include "output/write_error.h"
 #include "page/figures.h"
-#include "page/report.h"
 #include "page/study_json.h"
+#include "page/study_page.h"
 
 namespace leafhull {
 

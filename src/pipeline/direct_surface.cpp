@@ -8,7 +8,7 @@
 #include "pipeline/describe.h"
 #include "pipeline/sliders.h"
 #include "surface/brick_mesher.h"
-#include "surface/components.h"
+#include "surface/mesh_components.h"
 
 namespace leafhull {
 namespace {

@@ -3,7 +3,7 @@
 #include "leafhull/shape.h"
 #include "pipeline/describe.h"
 #include "pipeline/finish_mesh.h"
-#include "pipeline/measure.h"
+#include "pipeline/measure_shape.h"
 #include "pipeline/sliders.h"
 
 namespace leafhull {

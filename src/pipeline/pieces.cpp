@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "surface/brick_mesher.h"
-#include "surface/components.h"
+#include "surface/mesh_components.h"
 
 namespace leafhull {
 

@@ -9,7 +9,7 @@
 #include "leafhull/error.h"
 #include "pipeline/describe.h"
 #include "pipeline/finish_mesh.h"
-#include "pipeline/measure.h"
+#include "pipeline/measure_shape.h"
 #include "pipeline/sliders.h"
 
 namespace leafhull {

@@ -9,7 +9,7 @@
 
 #include "leafhull/error.h"
 #include "pipeline/find_radius.h"
-#include "pipeline/measure.h"
+#include "pipeline/measure_shape.h"
 #include "pipeline/threshold.h"
 
 namespace leafhull {

@@ -6,7 +6,7 @@
 
 #include "density/control.h"
 #include "pipeline/evaluate.h"
-#include "pipeline/measure.h"
+#include "pipeline/measure_shape.h"
 #include "pipeline/threshold.h"
 
 namespace leafhull {

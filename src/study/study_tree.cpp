@@ -7,10 +7,10 @@
 
 #include "leafhull/error.h"
 #include "leafhull/study.h"
-#include "study/band.h"
-#include "study/measure.h"
+#include "study/band_study.h"
+#include "study/measure_plan.h"
 #include "study/numbers.h"
-#include "study/plan.h"
+#include "study/study_plan.h"
 #include "study/timing.h"
 
 namespace leafhull {

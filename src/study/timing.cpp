@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "leafhull/error.h"
-#include "study/plan.h"
+#include "study/study_plan.h"
 
 namespace leafhull {
 namespace {

@@ -10,7 +10,7 @@
 #include <optional>
 #include <span>
 
-#include "study/band.h"
+#include "study/band_study.h"
 #include "study/numbers.h"
 
 namespace leafhull {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "leafhull/error.h"
-#include "sweep/plan.h"
+#include "sweep/sweep_plan.h"
 
 namespace leafhull {
 

@@ -9,7 +9,7 @@
 #include <tuple>
 #include <utility>
 
-#include "sweep/plan.h"
+#include "sweep/sweep_plan.h"
 #include "sweep/tables.h"
 
 namespace leafhull {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sweep/plan.h"
+#include "sweep/sweep_plan.h"
 
 namespace leafhull {
 namespace {

@@ -15,9 +15,9 @@
 #include "runs/read_file.h"
 #include "runs/run_folder.h"
 #include "sweep/journal.h"
-#include "sweep/plan.h"
 #include "sweep/plots.h"
 #include "sweep/sheets.h"
+#include "sweep/sweep_plan.h"
 #include "sweep/tables.h"
 
 namespace leafhull {

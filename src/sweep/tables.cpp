@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "output/report.h"
-#include "sweep/plan.h"
+#include "sweep/sweep_plan.h"
 
 namespace leafhull {
 namespace {

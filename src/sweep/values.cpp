@@ -10,7 +10,7 @@
 #include <type_traits>
 
 #include "leafhull/error.h"
-#include "sweep/plan.h"
+#include "sweep/sweep_plan.h"
 
 namespace leafhull {
 namespace {

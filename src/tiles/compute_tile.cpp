@@ -9,7 +9,7 @@
 #include "surface/brick_mesher.h"
 #include "tiles/finish_tile.h"
 #include "tiles/gather.h"
-#include "tiles/plan.h"
+#include "tiles/tile_plan.h"
 
 namespace leafhull {
 namespace {

@@ -5,8 +5,8 @@
 
 #include "leafhull/device.h"
 #include "tiles/level.h"
-#include "tiles/plan.h"
 #include "tiles/tile.h"
+#include "tiles/tile_plan.h"
 
 namespace leafhull {
 

@@ -5,7 +5,7 @@
 
 #include <array>
 
-#include "surface/components.h"
+#include "surface/mesh_components.h"
 
 namespace leafhull {
 namespace {

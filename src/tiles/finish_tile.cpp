@@ -7,7 +7,7 @@
 #include <cmath>
 #include <unordered_map>
 
-#include "surface/components.h"
+#include "surface/mesh_components.h"
 #include "tiles/exact_volume.h"
 
 namespace leafhull {

@@ -6,7 +6,7 @@
 
 #include "leafhull/ranks.h"
 #include "tiles/compute_tile.h"
-#include "tiles/plan.h"
+#include "tiles/tile_plan.h"
 
 namespace leafhull {
 

@@ -9,7 +9,7 @@
 #include "property/area_measures.h"
 #include "property/extractions.h"
 #include "tiles/compute_tile.h"
-#include "tiles/plan.h"
+#include "tiles/tile_plan.h"
 
 namespace leafhull::test {
 

@@ -13,7 +13,7 @@
 #include "property/canopies.h"
 #include "property/extractions.h"
 #include "tiles/compute_tile.h"
-#include "tiles/plan.h"
+#include "tiles/tile_plan.h"
 
 namespace leafhull {
 namespace {

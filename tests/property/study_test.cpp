@@ -9,8 +9,8 @@
 #include <random>
 
 #include "property/extractions.h"
-#include "study/band.h"
-#include "study/plan.h"
+#include "study/band_study.h"
+#include "study/study_plan.h"
 
 namespace leafhull {
 namespace {

@@ -8,7 +8,7 @@
 #include <set>
 #include <utility>
 
-#include "leaves/components.h"
+#include "leaves/leaf_components.h"
 #include "leaves/sheets.h"
 #include "leaves/solids.h"
 #include "leaves_models.h"

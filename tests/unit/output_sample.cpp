@@ -2,7 +2,7 @@
 #include "output_sample.h"
 
 #include "density/field.h"
-#include "surface/volume.h"
+#include "surface/density_grid.h"
 
 namespace leafhull {
 

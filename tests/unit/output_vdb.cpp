@@ -6,7 +6,7 @@
 #include "output/vdb.h"
 #include "output/writers.h"
 #include "output_sample.h"
-#include "surface/volume.h"
+#include "surface/density_grid.h"
 
 namespace leafhull::test {
 namespace {

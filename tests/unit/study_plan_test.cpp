@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "study/study_plan.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <set>
 #include <tuple>
-
-#include "study/plan.h"
 
 namespace leafhull {
 namespace {

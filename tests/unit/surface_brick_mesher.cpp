@@ -12,7 +12,7 @@
 #include "density/field_grid.h"
 #include "surface/brick_mesher.h"
 #include "surface/cell_shapes.h"
-#include "surface/components.h"
+#include "surface/mesh_components.h"
 #include "unit/surface_test_fields.h"
 
 namespace leafhull {

@@ -9,9 +9,9 @@
 #include "density/field_grid.h"
 #include "leafhull/error.h"
 #include "surface/brick_mesher.h"
+#include "surface/density_grid.h"
 #include "surface/polygonise.h"
 #include "surface/read_field.h"
-#include "surface/volume.h"
 #include "surface_test_fields.h"
 #include "temporary_folder.h"
 

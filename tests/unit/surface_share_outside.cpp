@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
-#include "surface/components.h"
 #include "surface/hollows.h"
+#include "surface/mesh_components.h"
 #include "surface/metrics.h"
 #include "surface/polygonise.h"
 #include "unit/surface_test_fields.h"

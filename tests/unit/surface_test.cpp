@@ -7,10 +7,10 @@
 #include <random>
 
 #include "density/field_grid.h"
-#include "surface/components.h"
+#include "surface/density_grid.h"
+#include "surface/mesh_components.h"
 #include "surface/metrics.h"
 #include "surface/polygonise.h"
-#include "surface/volume.h"
 #include "unit/surface_test_fields.h"
 
 namespace leafhull {

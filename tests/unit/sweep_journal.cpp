@@ -9,7 +9,7 @@
 #include "leafhull/error.h"
 #include "runs/sealed_json.h"
 #include "sweep/journal.h"
-#include "sweep/plan.h"
+#include "sweep/sweep_plan.h"
 #include "unit/temporary_folder.h"
 
 namespace leafhull {

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "sweep/sweep_plan.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "leafhull/error.h"
-#include "sweep/plan.h"
 #include "sweep/plots.h"
 #include "sweep/sheets.h"
 #include "sweep/tables.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "surface/components.h"
+#include "surface/mesh_components.h"
 
 #include <tbb/parallel_for.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "surface/volume.h"
+#include "surface/density_grid.h"
 
 #include <tbb/parallel_for.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "page/report.h"
+#include "page/study_page.h"
 
 #include <kainjow/mustache.hpp>
 #include <string>

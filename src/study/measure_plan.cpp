@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "study/measure.h"
+#include "study/measure_plan.h"
 
 #include <utility>
 

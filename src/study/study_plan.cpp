@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "study/plan.h"
+#include "study/study_plan.h"
 
 #include <algorithm>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "pipeline/measure.h"
+#include "pipeline/measure_shape.h"
 
 #include <utility>
 

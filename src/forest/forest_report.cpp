@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "output/report.h"
-
 #include <array>
 #include <string_view>
 
 #include "forest/tile_record.h"
 #include "leafhull/forest.h"
 #include "leafhull/version.h"
+#include "output/report.h"
 #include "tiles/level.h"
 
 namespace leafhull {

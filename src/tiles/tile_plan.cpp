@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tiles/plan.h"
+#include "tiles/tile_plan.h"
 
 #include <algorithm>
 #include <cmath>

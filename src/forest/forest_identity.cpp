@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "forest/identity.h"
+#include "forest/forest_identity.h"
 
 #include <string>
 

@@ -4,7 +4,7 @@
 #include <functional>
 
 #include "leafhull/shape.h"
-#include "study/plan.h"
+#include "study/study_plan.h"
 
 namespace leafhull {
 

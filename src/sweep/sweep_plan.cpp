@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sweep/plan.h"
+#include "sweep/sweep_plan.h"
 
 #include <algorithm>
 #include <map>

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "study/band.h"
+#include "study/band_study.h"
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <optional>
 
-#include "study/measure.h"
+#include "study/measure_plan.h"
 #include "study/numbers.h"
-#include "study/plan.h"
+#include "study/study_plan.h"
 
 namespace leafhull {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "leaves/components.h"
+#include "leaves/leaf_components.h"
 
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_sort.h>
