@@ -53,7 +53,7 @@ void check_schema(const fs::path& file, std::string_view schema) {
   throw Error(ErrorCode::usage, file.string() + " is of no forest", kNameAnother);
 }
 
-/// Of what `list` names, the shapes beside the tiles, as long as they are what was written.
+/// Removes the shapes beside the tiles that `list` names, as long as they are what was written.
 void remove_listed(const fs::path& list, std::string_view schema, const fs::path& folder) {
   Json files;
   try {

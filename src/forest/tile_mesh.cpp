@@ -24,14 +24,10 @@ class GlbReader {
   GlbReader(std::string_view glb, const std::string& where) : where_(where) {
     std::string error, warning;
     const auto* bytes = reinterpret_cast<const unsigned char*>(glb.data());
-    if (!tinygltf::TinyGLTF().LoadBinaryFromMemory(&model_, &error, &warning, bytes,
-                                                   static_cast<unsigned>(glb.size()))) {
-      fail();
-    }
-    if (model_.buffers.size() != 1 || model_.nodes.size() != 1 || model_.meshes.size() != 1 ||
-        model_.meshes.front().primitives.size() != 1) {
-      fail();
-    }
+    need(tinygltf::TinyGLTF().LoadBinaryFromMemory(&model_, &error, &warning, bytes,
+                                                   static_cast<unsigned>(glb.size())));
+    need(model_.buffers.size() == 1 && model_.nodes.size() == 1 && model_.meshes.size() == 1 &&
+         model_.meshes.front().primitives.size() == 1);
   }
 
   Mesh mesh() const {
@@ -43,10 +39,8 @@ class GlbReader {
     mesh.positions = elements<Vec3f>(attribute(primitive, "POSITION"));
     mesh.normals = elements<Vec3f>(attribute(primitive, "NORMAL"));
     mesh.triangles = triangles(primitive.indices);
-    for (const auto& [a, b, c] : mesh.triangles) {
-      if (std::max({a, b, c}) >= mesh.positions.size()) fail();
-    }
-    if (mesh.normals.size() != mesh.positions.size()) fail();
+    for (const auto& [a, b, c] : mesh.triangles) need(std::max({a, b, c}) < mesh.positions.size());
+    need(mesh.normals.size() == mesh.positions.size());
     return mesh;
   }
 
@@ -61,7 +55,8 @@ class GlbReader {
 
   using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 
-  [[noreturn]] void fail() const {
+  void need(bool holds) const {
+    if (holds) return;
     throw Error(ErrorCode::input, where_ + " is no mesh that leafhull has written", kComputeAgain);
   }
 
@@ -70,29 +65,27 @@ class GlbReader {
     return found == primitive.attributes.end() ? -1 : found->second;
   }
 
-  const tinygltf::Accessor& accessor(int index) const {
-    if (index < 0 || static_cast<std::size_t>(index) >= model_.accessors.size()) fail();
-    return model_.accessors[static_cast<std::size_t>(index)];
+  template <class Element>
+  const Element& at(const std::vector<Element>& all, int index) const {
+    need(index >= 0 && static_cast<std::size_t>(index) < all.size());
+    return all[static_cast<std::size_t>(index)];
   }
 
   /// All that is in the accessor's view.
   template <class Element>
   std::vector<Element> elements(int index) const {
-    const int view_index = accessor(index).bufferView;
-    if (view_index < 0 || static_cast<std::size_t>(view_index) >= model_.bufferViews.size()) fail();
-    const tinygltf::BufferView& view = model_.bufferViews[static_cast<std::size_t>(view_index)];
+    const tinygltf::BufferView& view =
+        at(model_.bufferViews, at(model_.accessors, index).bufferView);
     const std::vector<unsigned char>& data = model_.buffers.front().data;
-    if (view.byteOffset > data.size() || view.byteLength > data.size() - view.byteOffset ||
-        view.byteLength % sizeof(Element) != 0) {
-      fail();
-    }
+    need(view.byteOffset <= data.size() && view.byteLength <= data.size() - view.byteOffset &&
+         view.byteLength % sizeof(Element) == 0);
     std::vector<Element> result(view.byteLength / sizeof(Element));
     std::memcpy(result.data(), data.data() + view.byteOffset, view.byteLength);
     return result;
   }
 
   Triangles triangles(int index) const {
-    if (accessor(index).componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT) {
+    if (at(model_.accessors, index).componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT) {
       return elements<std::array<std::uint32_t, 3>>(index);
     }
     Triangles triangles;

@@ -60,7 +60,7 @@ Weld::Weld(const StoredTiles& tiles) : tiles_(tiles) {
   }
 }
 
-/// Of the tiles' origins that closest to the middle, from where floats are finest.
+/// The origin of a tile that is closest to the middle, from where floats are finest.
 Vec3d Weld::middle_origin() const {
   const Vec3d middle = (box_.low + box_.high) * 0.5;
   Vec3d origin;

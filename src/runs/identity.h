@@ -10,13 +10,13 @@ namespace leafhull {
 
 // What makes a run this one and no other.
 
-/// Adds the bytes of values to others; those of a struct with padding are for the caller to name.
+/// Appends the bytes of values; a struct that has padding is given member by member.
 template <class... Values>
 void add_bytes(std::string& bytes, const Values&... values) {
   (bytes.append(reinterpret_cast<const char*>(&values), sizeof values), ...);
 }
 
-/// A checksum of the leaves.
+/// SHA-256 of all leaf vertices, hexadecimal.
 std::string checksum_of(const LeafSet& leaves);
 
 /// "DEVICE (PLATFORM, VARIANT)".
