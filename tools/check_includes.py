@@ -18,6 +18,7 @@ ROOMS = {
     "foliage": (("colour", "leaves"), ("eigen", "tbb")),
     "points": (("leaves",), ("eigen", "tbb")),
     "density": ((), ("openvdb", "tbb")),
+    "options": (("density",), ()),
     "device": (("density",), ("opencl",)),
     "surface": (("density",), ("openvdb", "tbb")),
     "output": (("colour", "density", "surface", "text"), ("tinygltf", "openvdb", "json")),

@@ -152,7 +152,7 @@ void run_extract(const Arguments& arguments) {
   Console console(arguments.quiet, arguments.verbose);
   check_extract_arguments(arguments);
   const Options options = resolve(arguments.options);
-  check_outputs(arguments.files, arguments.tree);
+  check_outputs(arguments.files, arguments.operand);
   std::vector<std::string> warnings;
   const auto warn = [&](const std::vector<std::string>& more) {
     for (const std::string& warning : more) console.warn(warning);
@@ -165,7 +165,7 @@ void run_extract(const Arguments& arguments) {
   std::future<Device> opening = open_device(arguments.device, options.falloff);
   const LeafSet leaves = [&] {  // the tree is given back before the extraction needs the memory
     const TreeModel tree = stages.run(
-        "read", [&] { return read_tree(arguments.tree, arguments.options.read_options()); });
+        "read", [&] { return read_tree(arguments.operand, arguments.options.read_options()); });
     warn(tree.warnings);
     return stages.run("leaves", [&] { return find_leaves(tree, options.leaf_options()); });
   }();
@@ -185,7 +185,7 @@ void run_extract(const Arguments& arguments) {
   report.seconds = stages.with_total();
   report.peak_memory_bytes = peak_memory_bytes();
   stages.run("write", [&] {
-    write_outputs(arguments.files, shape, {arguments.tree.string(), arguments.command});
+    write_outputs(arguments.files, shape, {arguments.operand.string(), arguments.command});
     return true;
   });
 
@@ -207,8 +207,8 @@ Verb extract_verb() {
               "  leafhull extract birch.glb -o thin.glb --style thin --threshold 40%\n"
               "  leafhull extract birch.glb --leaves '*twig*' -o shape.ply --report shape.json\n",
           .takes_tree = true,
-          .flags = all_of(
-              {option_flags(), output_flags(), device_flags(), console_flags(), help_flags()}),
+          .flags = all_of({option_flags(), flags_of(output_table(), &Arguments::files),
+                           device_flags(), console_flags(), help_flags()}),
           .run = run_extract};
 }
 

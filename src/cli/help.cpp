@@ -16,12 +16,12 @@ namespace {
 constexpr std::size_t kIndent = 28;
 constexpr std::size_t kWidth = 98;
 
-std::string spelled(const Flag& flag) {
-  std::string text = flag.spelling;
+std::string spelled(const OptionLine& line) {
+  std::string text = line.spelling;
   if (const std::size_t comma = text.find(','); comma != std::string::npos) {
     text.insert(comma + 1, " ");
   }
-  return flag.value.empty() ? text : text + " " + std::string(flag.value);
+  return line.value.empty() ? text : text + " " + line.value;
 }
 
 std::string padded(std::string text, std::size_t width) {
@@ -58,28 +58,32 @@ std::string entry(std::string_view term, std::string_view text) {
   return entry(term, wrapped(text));
 }
 
-/// The meaning with unit, range and default; these on a line of their own where they do not fit.
-std::string help_line(const Flag& flag) {
-  const std::string by_default =
-      flag.default_value.empty() ? "" : "default " + std::string(flag.default_value);
-  const std::string_view facts[] = {flag.unit, flag.range, by_default};
-  const std::string details = joined(facts, "; ");
-  if (details.empty()) return entry(spelled(flag), flag.help);
-  const std::string whole = std::string(flag.help) + " (" + details + ")";
-  if (wrapped(whole).size() == 1) return entry(spelled(flag), whole);
-  std::vector<std::string> lines = wrapped(flag.help);
-  for (std::string& line : wrapped("(" + details + ")")) lines.push_back(std::move(line));
-  return entry(spelled(flag), lines);
+/// Unit, range and default, as far as there are.
+std::string facts(const OptionLine& line) {
+  const std::string by_default = line.default_value.empty() ? "" : "default " + line.default_value;
+  const std::string_view all[] = {line.unit, line.range, by_default};
+  return joined(all, "; ");
 }
 
-std::string markdown_row(const Flag& flag) {
+/// The meaning with unit, range and default; these on a line of their own where they do not fit.
+std::string help_line(const OptionLine& line) {
+  const std::string details = facts(line);
+  if (details.empty()) return entry(spelled(line), line.help);
+  const std::string whole = std::string(line.help) + " (" + details + ")";
+  if (wrapped(whole).size() == 1) return entry(spelled(line), whole);
+  std::vector<std::string> lines = wrapped(line.help);
+  for (std::string& more : wrapped("(" + details + ")")) lines.push_back(std::move(more));
+  return entry(spelled(line), lines);
+}
+
+std::string markdown_row(const OptionLine& line) {
   const auto cell = [](std::string_view text) {
     std::string escaped(" ");
     for (const char c : text) escaped += c == '|' ? std::string("\\|") : std::string(1, c);
     return escaped + " |";
   };
-  return "|" + cell("`" + spelled(flag) + "`") + cell(flag.help) + cell(flag.unit) +
-         cell(flag.range) + cell(flag.default_value) + "\n";
+  return "|" + cell("`" + spelled(line) + "`") + cell(line.help) + cell(line.unit) +
+         cell(line.range) + cell(line.default_value) + "\n";
 }
 
 std::string style_line(Style style) {
@@ -131,7 +135,7 @@ std::string command_help(std::span<const Verb> verbs) {
     if (!verb.hidden) page += entry(verb.name, verb.summary);
   }
   page += "\nGeneral\n";
-  for (const Flag& flag : help_flags()) page += help_line(flag);
+  for (const Flag& flag : help_flags()) page += help_line(flag.line);
   return page +
          "\nFirst steps\n"
          "  leafhull inspect tree.glb                 what is in the file, and what to type next\n"
@@ -150,8 +154,8 @@ std::string verb_help(const Verb& verb) {
   std::string_view group;
   for (const Flag& flag : verb.flags) {
     if (flag.hidden) continue;
-    if (flag.group != group) page += "\n" + std::string(group = flag.group) + "\n";
-    page += help_line(flag);
+    if (flag.line.group != group) page += "\n" + std::string(group = flag.line.group) + "\n";
+    page += help_line(flag.line);
   }
   if (verb.name == "extract") page += styles_and_presets();
   return page + "\nExamples\n" + std::string(verb.examples);
@@ -162,12 +166,12 @@ std::string markdown(std::span<const Flag> flags) {
   std::string_view group;
   for (const Flag& flag : flags) {
     if (flag.hidden) continue;
-    if (flag.group != group) {
-      group = flag.group;
+    if (flag.line.group != group) {
+      group = flag.line.group;
       page += (page.empty() ? "" : "\n") + ("**" + std::string(group) + "**\n\n") +
               "| Option | Meaning | Unit | Range | Default |\n|---|---|---|---|---|\n";
     }
-    page += markdown_row(flag);
+    page += markdown_row(flag.line);
   }
   return page;
 }

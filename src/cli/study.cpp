@@ -27,15 +27,15 @@ namespace {
 namespace fs = std::filesystem;
 
 std::vector<Flag> study_output_flags() {
-  return {{.spelling = "-o,--output",
-           .value = "FOLDER",
-           .group = "Output",
-           .help = "where report.html and study.json go; made where it is missing",
-           .set = [](Arguments& a, const std::string& text) { a.folder = text; }}};
+  static const ArgumentRow rows[] = {
+      ArgumentRow("Output", "output", &Arguments::output,
+                  "where report.html and study.json go; made where it is missing",
+                  {.value = "FOLDER", .letter = 'o'})};
+  return flags_of(rows);
 }
 
 void check_study_arguments(const Arguments& arguments) {
-  if (arguments.folder.empty()) {
+  if (arguments.output.empty()) {
     throw Error(ErrorCode::usage, "no folder for the report is given", "Give one: -o study/.");
   }
   const std::vector<fs::path>& trees = arguments.trees;
@@ -48,7 +48,7 @@ void check_study_arguments(const Arguments& arguments) {
       throw Error(ErrorCode::usage, tree->string() + " is given twice", "Give each tree once.");
     }
   }
-  check_output_folder(arguments.folder);
+  check_output_folder(arguments.output);
 }
 
 /// What the report calls the trees: their files' stems, numbered where two are the same.
@@ -68,7 +68,7 @@ std::vector<std::string> names_of(const std::vector<fs::path>& trees) {
 /// nobody's business.
 std::string without_folders(const Arguments& arguments) {
   std::vector<fs::path> paths = arguments.trees;
-  paths.push_back(arguments.folder);
+  paths.push_back(arguments.output);
   std::string command = "leafhull";
   for (std::string word : std::span(arguments.command).subspan(1)) {
     for (const fs::path& path : paths) {
@@ -170,10 +170,10 @@ void run_study(const Arguments& arguments) {
   study.command = without_folders(arguments);
   study.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
   console.progress("write", 0);
-  write_study(study, arguments.folder);
+  write_study(study, arguments.output);
   clear_progress();
   for (const TreeStudy& tree : study.trees) print_verdicts(tree);
-  console.say("leafhull: " + (arguments.folder / "report.html").string() + " in " +
+  console.say("leafhull: " + (arguments.output / "report.html").string() + " in " +
               seconds(study.seconds));
 }
 

@@ -16,16 +16,47 @@ namespace {
 
 constexpr std::size_t kMostUnasked = 10'000;
 
+/// The options, several values at once where a sweep takes them.
+std::vector<Flag> swept_flags() {
+  std::vector<Flag> flags = option_flags();
+  for (Flag& flag : flags) {
+    const OptionRow& row = option_row(flag.line.name);
+    if (!can_sweep(row)) continue;
+    flag.set = [&row](Arguments& arguments, const std::string& text) {
+      const SweptOption option = swept_option(row, text);
+      if (option.values.size() == 1 && option.values.front() == text) {
+        set_option(arguments.options, row, text);
+      } else {
+        arguments.swept.push_back(option);
+      }
+      arguments.given.insert(row.name);
+    };
+  }
+  return flags;
+}
+
+std::vector<Flag> sweep_flags() {
+  static const ArgumentRow rows[] = {
+      ArgumentRow("Output", "output", &Arguments::output,
+                  "keeps the sweep: tables, plots, pictures and what is done",
+                  {.range = "made where it is missing", .value = "FOLDER", .letter = 'o'}),
+      ArgumentRow("Output", "restart", &Arguments::restart,
+                  "starts over and replaces the sweep in the folder"),
+      ArgumentRow("Output", "yes", &Arguments::yes, "allows more than 10,000 combinations"),
+  };
+  return flags_of(rows);
+}
+
 void check_sweep_arguments(const Arguments& arguments) {
-  const std::string example =
-      "such as leafhull sweep " + quoted(arguments.tree.string()) + " --threshold 1.5:2.5:0.25 -o ";
+  const std::string example = "such as leafhull sweep " + quoted(arguments.operand.string()) +
+                              " --threshold 1.5:2.5:0.25 -o ";
   if (arguments.swept.empty()) {
     (void)resolve(arguments.options);
     throw Error(ErrorCode::usage, "no option is swept",
                 "Give one a range or a list, " + example +
-                    (arguments.folder.empty() ? "out" : quoted(arguments.folder)) + ".");
+                    (arguments.output.empty() ? "out" : quoted(arguments.output)) + ".");
   }
-  if (arguments.folder.empty()) {
+  if (arguments.output.empty()) {
     throw Error(ErrorCode::usage, "no folder is named",
                 "Name the one that keeps the sweep, " + example + "out.");
   }
@@ -82,7 +113,7 @@ void say_summary(Console& console, const SweepSummary& summary, const Arguments&
   if (summary.resumed > 0) text += ", " + count(summary.resumed) + " of them from before";
   if (summary.empty > 0) text += ", " + count(summary.empty) + " without a surface";
   if (summary.failed > 0) text += ", " + count(summary.failed) + " that failed (see sweep.csv)";
-  console.say(text + " in " + seconds(elapsed) + ": " + arguments.folder.string());
+  console.say(text + " in " + seconds(elapsed) + ": " + arguments.output.string());
   for (const StageTime& time : summary.seconds) {
     std::string stage = time.stage;
     stage.resize(std::max<std::size_t>(stage.size(), 18), ' ');
@@ -95,14 +126,14 @@ void run_sweep_verb(const Arguments& arguments) {
   Console console(arguments.quiet, arguments.verbose);
   check_sweep_arguments(arguments);
   const SweepPlan plan = plan_of(arguments);
-  const std::string folder = arguments.folder.string();
-  check_output_folder(arguments.folder);
+  const std::string folder = arguments.output.string();
+  check_output_folder(arguments.output);
   catch_signals();
 
   std::future<Device> opening = open_device(arguments.device, first_falloff(plan));
   console.progress("read", 0);
   const LeafSet leaves = [&] {
-    const TreeModel tree = read_tree(arguments.tree, arguments.options.read_options());
+    const TreeModel tree = read_tree(arguments.operand, arguments.options.read_options());
     for (const std::string& warning : tree.warnings) console.warn(warning);
     return find_leaves(tree, plan.combinations.front().leaf_options());
   }();
@@ -119,8 +150,8 @@ void run_sweep_verb(const Arguments& arguments) {
 
   bool begun = false;
   const SweepSummary summary = run_sweep(
-      leaves, plan, device, {arguments.folder, arguments.restart},
-      {arguments.tree.string(), arguments.command},
+      leaves, plan, device, {arguments.output, arguments.restart},
+      {arguments.operand.string(), arguments.command},
       [&](std::string_view stage, std::size_t done, std::size_t all) {
         if (!std::exchange(begun, true) && done > 0) {
           console.say("leafhull: resuming: " + count(done) + " of " + count(all) + " done");

@@ -30,49 +30,6 @@
 namespace leafhull {
 namespace {
 
-constexpr int kMostLevels = 8;
-constexpr int kLargestTile = 512;
-
-void check(const ForestOptions& options) {
-  const auto refuse = [](const std::string& what, const std::string& remedy) {
-    throw Error(ErrorCode::usage, what, remedy);
-  };
-  if (options.levels < 1 || options.levels > kMostLevels) {
-    refuse("a forest cannot have " + std::to_string(options.levels) + " levels",
-           "Give --levels from 1 to " + std::to_string(kMostLevels) + ".");
-  }
-  if (const auto tile = options.tile;
-      tile && (*tile % kRootEdge != 0 || *tile < kRootEdge || *tile > kLargestTile)) {
-    refuse("a tile cannot have " + std::to_string(*tile) + " voxels along its edge",
-           "Give a multiple of 32 up to " + std::to_string(kLargestTile) + ".");
-  }
-  if (options.merge == Merge::none) {
-    if (options.control_scope == ControlScope::scene) {
-      refuse("--control-scope scene needs trees that share a density", "Add --merge canopy.");
-    }
-    if (options.levels > 1 || options.single || options.range || options.finish) {
-      refuse("--merge none makes no tiles",
-             "Leave out --levels, --single, --tile-range and --finish.");
-    }
-    return;
-  }
-  if (options.control_scope == ControlScope::scene &&
-      (options.shape.erosion || options.shape.dilation)) {
-    refuse("--erosion and --dilation are of each model, and --control-scope is scene",
-           "Leave out one of the two.");
-  }
-  if (options.shape.density == DensitySource::grid) {
-    refuse("--density grid is of a single tree", "Leave it out, or add --merge none.");
-  }
-  if (options.shape.dense || options.shape.adaptivity > 0) {
-    refuse("tiles have neither --dense nor --adaptivity", "Leave them out, or add --merge none.");
-  }
-  if (options.shape.hollows == Hollows::fill) {
-    refuse("a tile cannot tell whether a hollow is closed",
-           "Leave out --hollows fill, or add --merge none.");
-  }
-}
-
 /// A tile of one of the levels.
 struct Work {
   int level;
@@ -443,7 +400,7 @@ class Run {
 ForestSummary run_forest(const Scene& scene, const ForestOptions& options, Device& device,
                          Ranks& ranks, const std::filesystem::path& folder,
                          const ForestProgressVisitor& progress) {
-  check(options);
+  check_forest(options);
   check_output_folder(folder);
   const ThreadLimit limit(device.threads());
   const bool is_new = !std::filesystem::exists(folder);
