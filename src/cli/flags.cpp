@@ -34,8 +34,6 @@ std::vector<Flag> option_flags(std::string_view group) {
   return flags;
 }
 
-std::vector<Flag> render_flags() { return flags_of(render_table(), &Arguments::render); }
-
 std::vector<Flag> device_flags() { return flags_of(device_table(), &Arguments::device); }
 
 std::vector<Flag> console_flags() {

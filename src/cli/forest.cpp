@@ -3,14 +3,12 @@
 
 #include <malloc.h>
 
-#include <chrono>
-#include <future>
 #include <iostream>
 #include <limits>
 #include <string>
 #include <utility>
 
-#include "cli/console.h"
+#include "cli/context.h"
 #include "cli/forest_words.h"
 #include "cli/values.h"
 #include "cli/verb.h"
@@ -22,7 +20,6 @@ namespace leafhull::cli {
 namespace {
 
 namespace fs = std::filesystem;
-using Clock = std::chrono::steady_clock;
 
 std::vector<Flag> forest_output_flags() {
   static const ArgumentRow folder[] = {
@@ -153,9 +150,9 @@ DeviceOptions device_of(const Arguments& arguments, const Ranks& ranks) {
   return device;
 }
 
-void warn_of_memory(const Arguments& arguments, Console& console) {
+void warn_of_memory(const Arguments& arguments, Context& context) {
   if (!arguments.given.contains("memory") || arguments.forest.merge != Merge::none) return;
-  console.warn("--memory bounds a canopy alone: --merge none takes what its models need");
+  context.warn({"--memory bounds a canopy alone: --merge none takes what its models need"});
 }
 
 std::string per_second(double leaf_vertices, double seconds) {
@@ -173,18 +170,15 @@ std::string tiles_in_words(const ForestSummary& summary) {
   return text;
 }
 
-void say_summary(Console& console, const ForestSummary& summary, const Arguments& arguments,
-                 std::uint64_t leaf_vertices, double elapsed) {
+void say_summary(Context& context, const ForestSummary& summary, const Arguments& arguments,
+                 std::uint64_t leaf_vertices) {
+  const double elapsed = context.elapsed();
   if (summary.was_finished) {
-    console.say("leafhull: " + arguments.output.string() +
-                " holds this forest, finished: nothing was to do");
+    context.console.say("leafhull: " + arguments.output.string() +
+                        " holds this forest, finished: nothing was to do");
     return;
   }
-  for (const StageTime& time : summary.seconds) {
-    std::string stage = time.stage;
-    stage.resize(std::max<std::size_t>(stage.size(), 18), ' ');
-    console.detail("  " + stage + "  " + seconds(time.seconds));
-  }
+  context.say_stages(summary.seconds, "  ", 18);
   std::string text =
       "leafhull: " + counted(summary.trees, "tree") + " of " + counted(summary.models, "model");
   if (arguments.forest.merge == Merge::canopy) text += ", " + tiles_in_words(summary);
@@ -193,7 +187,7 @@ void say_summary(Console& console, const ForestSummary& summary, const Arguments
   if (leaf_vertices > 0) {
     text += ", " + per_second(static_cast<double>(leaf_vertices), elapsed);
   }
-  console.say(text + ": " + arguments.output.string());
+  context.console.say(text + ": " + arguments.output.string());
 }
 
 void write_report(const ForestSummary& summary, const Arguments& arguments,
@@ -230,15 +224,15 @@ void keep_freed_memory() {
 
 void make_forest(const Arguments& arguments, Ranks& ranks) {
   keep_freed_memory();
-  const auto start = Clock::now();
   const bool speaks = ranks.rank() == 0;
-  Console console(arguments.quiet || !speaks, arguments.verbose && speaks);
+  Context context(arguments, speaks);
+  Console& console = context.console;
   check_ranks_agree(arguments, ranks);
   check_ranks_share_all(arguments, ranks);
   ForestOptions options = arguments.forest;
   options.shape = arguments.options;
   check_forest_arguments(arguments, options);
-  warn_of_memory(arguments, console);
+  warn_of_memory(arguments, context);
   // Names are typed relative to the working folder.
   if (options.single) options.single = fs::proximate(*options.single, arguments.output);
   ForestWords words(ranks, arguments.quiet, how_to_go_on(options));
@@ -246,12 +240,12 @@ void make_forest(const Arguments& arguments, Ranks& ranks) {
   const Options shape = resolve(arguments.options);
   const DeviceOptions shared = device_of(arguments, ranks);
   const ThreadLimit limit(shared.threads);
-  std::future<Device> opening = open_device(shared, shape.falloff);
+  context.open_device(shared, shape.falloff);
   console.progress("read", 0);
   const Scene scene = read_scene(arguments.operand, shape.leaf_options(), shape.read_options());
-  for (const std::string& warning : scene.warnings) console.warn(warning);
+  context.warn(scene.warnings);
   check_models(arguments, scene);
-  Device device = opening.get();
+  Device& device = context.device();
   console.detail("device      " + device.info().name);
   console.detail("scene       " + counted(scene.trees.size(), "tree") + " of " +
                  counted(scene.models.size(), "model"));
@@ -270,7 +264,7 @@ void make_forest(const Arguments& arguments, Ranks& ranks) {
     if (now.tiles == 0) return console.progress(now.stage, 0);
     if (now.stage == "tiles") words.set_tiles(now.tiles);
     console.progress(now.stage, now.tiles_done, now.tiles,
-                     per_second(static_cast<double>(leaf_vertices), since(start)) + ", " +
+                     per_second(static_cast<double>(leaf_vertices), context.elapsed()) + ", " +
                          bytes(now.resident_bytes));
   };
   const ForestSummary summary = [&] {
@@ -281,12 +275,11 @@ void make_forest(const Arguments& arguments, Ranks& ranks) {
     }
   }();
   if (!speaks) return;
-  for (const std::string& warning : summary.warnings) console.warn(warning);
+  context.warn(summary.warnings);
   write_report(summary, arguments, options);
   // Of several ranks, and of a run that did all, the trees' own count.
   const bool did_all = summary.resumed == 0 && summary.remaining == 0;
-  say_summary(console, summary, arguments, did_all ? summary.leaf_vertices : leaf_vertices,
-              since(start));
+  say_summary(context, summary, arguments, did_all ? summary.leaf_vertices : leaf_vertices);
 }
 
 /// On several ranks one that fails ends the others, which do not know of it.

@@ -9,7 +9,7 @@
 #include <optional>
 #include <tuple>
 
-#include "cli/console.h"
+#include "cli/context.h"
 #include "cli/table.h"
 #include "cli/values.h"
 #include "cli/verb.h"
@@ -253,12 +253,10 @@ void print_json(const Arguments& arguments, const LeafChoice& choice,
 }
 
 void run_inspect(const Arguments& arguments) {
-  Console console(arguments.quiet, arguments.verbose);
+  Context context(arguments);
   const LeafOptions options = resolve(arguments.options).leaf_options();
-  console.progress("read", 0);
-  const TreeModel tree = read_tree(arguments.operand, arguments.options.read_options());
-  for (const std::string& warning : tree.warnings) console.warn(warning);
-  console.progress("leaves", 0);
+  const TreeModel tree = context.read(arguments.operand);
+  context.console.progress("leaves", 0);
   const LeafChoice choice = choose_leaves(tree, options);
   std::optional<LeafSet> leaves;
   std::optional<Error> failure;
@@ -269,9 +267,7 @@ void run_inspect(const Arguments& arguments) {
     failure = error;  // the list is printed all the same
   }
   clear_progress();
-  for (const std::string& warning : leaves ? leaves->warnings : choice.warnings) {
-    console.warn(warning);
-  }
+  context.warn(leaves ? leaves->warnings : choice.warnings);
 
   const std::vector<std::string> commands = suggestions(arguments, choice);
   if (arguments.json) {

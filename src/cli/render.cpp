@@ -3,12 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <future>
 #include <memory>
 #include <string>
 #include <utility>
 
-#include "cli/console.h"
+#include "cli/context.h"
 #include "cli/flags.h"
 #include "cli/signals.h"
 #include "cli/values.h"
@@ -16,7 +15,6 @@
 #include "leafhull/error.h"
 #include "leafhull/output.h"
 #include "leafhull/tree.h"
-#include "text/file_name.h"
 
 namespace leafhull::cli {
 namespace {
@@ -77,25 +75,22 @@ std::vector<std::string> without_effect(const Arguments& arguments, bool is_tree
 /// Reads and draws; what is asked of it is checked.
 class Run {
  public:
-  Run(const Arguments& arguments, const PictureOptions& drawing, Console& console)
-      : arguments_(arguments),
-        drawing_(drawing),
-        console_(console),
-        opening_(open_device(arguments.device, arguments.options.falloff)) {}
+  Run(const Arguments& arguments, const PictureOptions& drawing, Context& context)
+      : arguments_(arguments), drawing_(drawing), context_(context) {
+    context.open_device(arguments.options.falloff);
+  }
 
   void operator()() {
     if (is_field(arguments_.operand)) {
-      warn(without_effect(arguments_, false));
+      context_.warn(without_effect(arguments_, false));
       Device& device = open();
       const std::optional<double> threshold = arguments_.options.threshold;
-      write(field_subject(arguments_.operand, threshold, surfacing(arguments_), device, progress()),
+      write(field_subject(arguments_.operand, threshold, surfacing(arguments_), device,
+                          context_.progress()),
             device);
       return;
     }
-    console_.progress("read", 0);
-    const auto model = std::make_shared<const TreeModel>(
-        read_tree(arguments_.operand, arguments_.options.read_options()));
-    warn(model->warnings);
+    const auto model = std::make_shared<const TreeModel>(context_.read(arguments_.operand));
     const std::optional<Drawn> asked = arguments_.render.drawn_as;
     const bool seems_shape = arguments_.options.leaves.empty() && is_shape(*model);
     if (asked ? *asked == Drawn::shape : seems_shape) {
@@ -106,19 +101,11 @@ class Run {
   }
 
  private:
-  Progress progress() {
-    return [this](std::string_view stage, double done) { console_.progress(stage, done); };
-  }
-
-  void warn(const std::vector<std::string>& lines) {
-    for (const std::string& line : lines) console_.warn(line);
-  }
-
   Device& open() {
-    device_.emplace(opening_.get());
-    check_size(arguments_, drawing_, &device_->info());
-    console_.detail("device      " + device_->info().name);
-    return *device_;
+    Device& device = context_.device();
+    check_size(arguments_, drawing_, &device.info());
+    context_.console.detail("device      " + device.info().name);
+    return device;
   }
 
   void draw_shape(const std::shared_ptr<const TreeModel>& model) {
@@ -131,25 +118,24 @@ class Run {
              "Give the tree, or a .vdb file from extract --save-field.");
     }
     if (!arguments_.render.drawn_as) {
-      console_.say("leafhull: " + file + " is drawn as an abstract shape (--as tree: as a tree)");
+      context_.console.say("leafhull: " + file +
+                           " is drawn as an abstract shape (--as tree: as a tree)");
     }
-    warn(without_effect(arguments_, false));
+    context_.warn(without_effect(arguments_, false));
     write(shape_subject(model), open());
   }
 
   void draw_tree(const std::shared_ptr<const TreeModel>& model) {
-    warn(without_effect(arguments_, true));
-    console_.progress("leaves", 0);
-    const LeafSet leaves = find_leaves(*model, arguments_.options.leaf_options());
-    warn(leaves.warnings);
+    context_.warn(without_effect(arguments_, true));
+    const LeafSet leaves = context_.find_leaves(*model, arguments_.options.leaf_options());
     Device& device = open();
     if (arguments_.render.figure17) {
       write_figure17(model, leaves, device);
       return;
     }
-    const Subject subject =
-        tree_subject(model, leaves, arguments_.options, surfacing(arguments_), device, progress());
-    warn(subject.report().warnings);
+    const Subject subject = tree_subject(model, leaves, arguments_.options, surfacing(arguments_),
+                                         device, context_.progress());
+    context_.warn(subject.report().warnings);
     write(subject, device);
   }
 
@@ -157,81 +143,68 @@ class Run {
                       Device& device) {
     const fs::path& file = arguments_.render.files.front();
     const Picture plate = figure17(model, leaves, arguments_.options, *arguments_.render.figure17,
-                                   surfacing(arguments_), drawing_, device, progress());
+                                   surfacing(arguments_), drawing_, device, context_.progress());
     const std::vector<std::uint8_t> png = encode_png(plate);
     write_file(file, {reinterpret_cast<const char*>(png.data()), png.size()});
-    console_.say("leafhull: Figure 17 of " + arguments_.operand.filename().string() + " in " +
-                 seconds(elapsed()) + ": " + file.string());
+    context_.console.say("leafhull: Figure 17 of " + arguments_.operand.filename().string() +
+                         " in " + seconds(context_.elapsed()) + ": " + file.string());
   }
 
   void write(const Subject& subject, Device& device) {
     const Report& report = subject.report();
     if (report.resolution > 0) {
-      console_.detail("surface     T = " + number(report.threshold, 4) + ", " +
-                      count(static_cast<std::uint64_t>(report.resolution)) + " voxels of " +
-                      number(report.voxel_size, 4));
+      context_.console.detail("surface     T = " + number(report.threshold, 4) + ", " +
+                              count(static_cast<std::uint64_t>(report.resolution)) + " voxels of " +
+                              number(report.voxel_size, 4));
     }
     const int frames = arguments_.render.frames.value_or(0);
-    const PictureSummary summary = write_pictures(
-        subject, drawing_, arguments_.render.picture_files(), device,
-        [&](std::string_view stage, double done) {
-          if (frames == 0) {
-            console_.progress(stage, done);
-          } else {
-            // A frame counts once it is drawn; its share is not exact.
-            console_.progress(stage, static_cast<std::size_t>(std::floor(done * frames + 1e-6)),
-                              static_cast<std::size_t>(frames));
-          }
-        });
-    warn(summary.warnings);
-    say_times(report.seconds);
-    say_times(summary.seconds);
+    const PictureSummary summary =
+        write_pictures(subject, drawing_, arguments_.render.picture_files(), device,
+                       [&](std::string_view stage, double done) {
+                         if (frames == 0) {
+                           context_.console.progress(stage, done);
+                         } else {
+                           // A frame counts once it is drawn; its share is not exact.
+                           context_.console.progress(
+                               stage, static_cast<std::size_t>(std::floor(done * frames + 1e-6)),
+                               static_cast<std::size_t>(frames));
+                         }
+                       });
+    context_.warn(summary.warnings);
+    context_.say_stages(report.seconds, "", 10);
+    context_.say_stages(summary.seconds, "", 10);
     say_files(summary);
-  }
-
-  void say_times(const std::vector<StageTime>& times) {
-    for (const StageTime& time : times) {
-      if (time.stage == "total") continue;
-      std::string stage = time.stage;
-      stage.resize(std::max<std::size_t>(stage.size(), 10), ' ');
-      console_.detail(stage + "  " + seconds(time.seconds));
-    }
   }
 
   void say_files(const PictureSummary& summary) {
     const int frames = arguments_.render.frames.value_or(0);
     std::string where;
     for (const fs::path& file : summary.files) where += (where.empty() ? "" : ", ") + file.string();
-    console_.say("leafhull: " + std::to_string(drawing_.width) + "x" +
-                 std::to_string(drawing_.height) + " pixels" +
-                 (frames > 0 ? ", " + std::to_string(frames) + " frames" : "") + " in " +
-                 seconds(elapsed()) + ": " + where);
-  }
-
-  double elapsed() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    context_.console.say("leafhull: " + std::to_string(drawing_.width) + "x" +
+                         std::to_string(drawing_.height) + " pixels" +
+                         (frames > 0 ? ", " + std::to_string(frames) + " frames" : "") + " in " +
+                         seconds(context_.elapsed()) + ": " + where);
   }
 
   const Arguments& arguments_;
   const PictureOptions& drawing_;
-  Console& console_;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-  std::future<Device> opening_;
-  std::optional<Device> device_;
+  Context& context_;
 };
 
 void run_render(const Arguments& arguments) {
-  Console console(arguments.quiet, arguments.verbose);
+  Context context(arguments);
   (void)resolve(arguments.options);
   const PictureOptions drawing =
       picture_of(arguments.render, arguments.operand, arguments.options.read_options());
   catch_signals(arguments.render.frames && !arguments.quiet
                     ? "leafhull: stopped; the frames so far are written\n"
                     : "");
-  Run(arguments, drawing, console)();
+  Run(arguments, drawing, context)();
 }
 
 }  // namespace
+
+std::vector<Flag> render_flags() { return flags_of(render_table(), &Arguments::render); }
 
 Verb render_verb() {
   return {

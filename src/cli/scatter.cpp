@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <chrono>
-#include <limits>
-
-#include "cli/console.h"
+#include "cli/context.h"
 #include "cli/signals.h"
 #include "cli/values.h"
 #include "cli/verb.h"
@@ -41,21 +38,18 @@ void check_scatter_arguments(const Arguments& arguments) {
 }
 
 void run_scatter(const Arguments& arguments) {
-  const auto start = std::chrono::steady_clock::now();
-  Console console(arguments.quiet, arguments.verbose);
+  Context context(arguments);
   check_scatter_arguments(arguments);
   ScatterOptions options = arguments.scatter;
   options.trees = arguments.trees;
   options.leaves = resolve(arguments.options).leaf_options();
   options.reading = arguments.options.read_options();
   catch_signals();
-  console.progress("scatter", 0);
+  context.console.progress("scatter", 0);
   write_scatter(options, arguments.output);
-  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
-  console.say("leafhull: " + count(options.count) + (options.count == 1 ? " tree" : " trees") +
-              " of " + count(options.trees.size()) +
-              (options.trees.size() == 1 ? " model" : " models") + " in " +
-              seconds(elapsed.count()) + ": " + arguments.output.string());
+  context.console.say("leafhull: " + counted(options.count, "tree") + " of " +
+                      counted(options.trees.size(), "model") + " in " + seconds(context.elapsed()) +
+                      ": " + arguments.output.string());
 }
 
 }  // namespace

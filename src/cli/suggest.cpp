@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
 #include <cstdint>
-#include <future>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
-#include "cli/console.h"
+#include "cli/context.h"
 #include "cli/signals.h"
 #include "cli/table.h"
 #include "cli/values.h"
@@ -86,7 +85,7 @@ void print_json(const Arguments& arguments, const std::vector<Suggestion>& choic
 }
 
 void run_suggest(const Arguments& arguments) {
-  Console console(arguments.quiet, arguments.verbose);
+  Context context(arguments);
   const Options options = arguments.options;
   const LeafOptions leaf_options = resolve(options).leaf_options();
   std::filesystem::path picture = arguments.output;
@@ -94,18 +93,10 @@ void run_suggest(const Arguments& arguments) {
   check_output(picture, ".png", arguments.operand);
   catch_signals();
 
-  std::future<Device> opening = open_device(arguments.device, options.falloff);
-  console.progress("read", 0);
-  const LeafSet leaves = [&] {
-    const TreeModel tree = read_tree(arguments.operand, arguments.options.read_options());
-    for (const std::string& warning : tree.warnings) console.warn(warning);
-    return find_leaves(tree, leaf_options);
-  }();
-  for (const std::string& warning : leaves.warnings) console.warn(warning);
-  Device device = opening.get();
-  const Suggestions suggestions =
-      suggest(leaves, options, device, arguments.operand.filename().string(),
-              [&](std::string_view stage, double done) { console.progress(stage, done); });
+  context.open_device(options.falloff);
+  const LeafSet leaves = context.read_leaves(leaf_options);
+  const Suggestions suggestions = suggest(
+      leaves, options, context.device(), arguments.operand.filename().string(), context.progress());
   const std::vector<std::uint8_t> png = encode_png(suggestions.strip);
   write_file(picture, {reinterpret_cast<const char*>(png.data()), png.size()});
 
@@ -115,7 +106,7 @@ void run_suggest(const Arguments& arguments) {
   } else {
     print_table(arguments, suggestions.choices);
   }
-  console.say("leafhull: pictures of all nine: " + picture.string());
+  context.console.say("leafhull: pictures of all nine: " + picture.string());
 }
 
 std::vector<Flag> picture_flags() {

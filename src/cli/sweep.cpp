@@ -2,9 +2,9 @@
 #include "leafhull/sweep.h"
 
 #include <algorithm>
-#include <future>
+#include <utility>
 
-#include "cli/console.h"
+#include "cli/context.h"
 #include "cli/signals.h"
 #include "cli/values.h"
 #include "cli/verb.h"
@@ -106,39 +106,29 @@ SweepPlan plan_of(const Arguments& arguments) {
 /// The one falloff whose kernels are built while the tree is read.
 int first_falloff(const SweepPlan& plan) { return plan.combinations.front().falloff; }
 
-void say_summary(Console& console, const SweepSummary& summary, const Arguments& arguments,
-                 double elapsed) {
+void say_summary(Context& context, const SweepSummary& summary, const Arguments& arguments) {
   std::string text = "leafhull: " + count(summary.combinations) +
                      (summary.combinations == 1 ? " combination" : " combinations");
   if (summary.resumed > 0) text += ", " + count(summary.resumed) + " of them from before";
   if (summary.empty > 0) text += ", " + count(summary.empty) + " without a surface";
   if (summary.failed > 0) text += ", " + count(summary.failed) + " that failed (see sweep.csv)";
-  console.say(text + " in " + seconds(elapsed) + ": " + arguments.output.string());
-  for (const StageTime& time : summary.seconds) {
-    std::string stage = time.stage;
-    stage.resize(std::max<std::size_t>(stage.size(), 18), ' ');
-    console.detail("  " + stage + "  " + seconds(time.seconds));
-  }
+  context.console.say(text + " in " + seconds(context.elapsed()) + ": " +
+                      arguments.output.string());
+  context.say_stages(summary.seconds, "  ", 18);
 }
 
 void run_sweep_verb(const Arguments& arguments) {
-  const auto start = std::chrono::steady_clock::now();
-  Console console(arguments.quiet, arguments.verbose);
+  Context context(arguments);
   check_sweep_arguments(arguments);
   const SweepPlan plan = plan_of(arguments);
   const std::string folder = arguments.output.string();
   check_output_folder(arguments.output);
   catch_signals();
 
-  std::future<Device> opening = open_device(arguments.device, first_falloff(plan));
-  console.progress("read", 0);
-  const LeafSet leaves = [&] {
-    const TreeModel tree = read_tree(arguments.operand, arguments.options.read_options());
-    for (const std::string& warning : tree.warnings) console.warn(warning);
-    return find_leaves(tree, plan.combinations.front().leaf_options());
-  }();
-  for (const std::string& warning : leaves.warnings) console.warn(warning);
-  Device device = opening.get();
+  context.open_device(first_falloff(plan));
+  const LeafSet leaves = context.read_leaves(plan.combinations.front().leaf_options());
+  Device& device = context.device();
+  Console& console = context.console;
   console.detail("device      " + device.info().name);
   console.detail("leaves      " + count(leaves.leaf_count) + " with " +
                  count(leaves.vertices.size()) + " vertices");
@@ -158,9 +148,8 @@ void run_sweep_verb(const Arguments& arguments) {
         }
         console.progress(stage, done, all);
       });
-  for (const std::string& warning : summary.warnings) console.warn(warning);
-  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
-  say_summary(console, summary, arguments, elapsed.count());
+  context.warn(summary.warnings);
+  say_summary(context, summary, arguments);
 }
 
 }  // namespace
