@@ -36,12 +36,12 @@ struct ForestOptions {
   Options shape;  ///< as of an extraction; a resolution counts along the largest tree
   Merge merge = Merge::canopy;
   ControlScope control_scope = ControlScope::model;
-  int levels = 1;                             ///< of abstraction
-  ByteCount memory = std::uint64_t{4} << 30;  ///< that a rank may hold
-  std::optional<int> tile;                    ///< voxels along a tile's edge; empty: 128, or less
-                                              ///< where the memory asks for it
-  std::optional<TileRange> range;             ///< only these tiles, nothing after them
-  bool finish = false;                        ///< only what follows when every tile is there
+  int levels = 1;                               ///< of abstraction
+  ByteCount memory = {std::uint64_t{4} << 30};  ///< that a rank may hold
+  std::optional<int> tile;                      ///< voxels along a tile's edge; empty: 128, or less
+                                                ///< where the memory asks for it
+  std::optional<TileRange> range;               ///< only these tiles, nothing after them
+  bool finish = false;                          ///< only what follows when every tile is there
   bool resume = false;   ///< goes on with what an earlier run has left in the folder
   bool restart = false;  ///< removes what an earlier run has left there
   /// .glb or .ply, relative to the folder: all tiles of level 0, welded.

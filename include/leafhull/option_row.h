@@ -22,9 +22,7 @@ namespace leafhull {
 
 /// A size in memory.
 struct ByteCount {
-  constexpr ByteCount(std::uint64_t bytes = 0) : count(bytes) {}
-  constexpr operator std::uint64_t() const { return count; }
-  std::uint64_t count;
+  std::uint64_t bytes = 0;
 };
 
 /// The largest number of an option that has no bound of its own: the density kernels take floats.
@@ -55,7 +53,6 @@ struct OptionFacts {
 
 /// An option as its users see it.
 struct OptionLine : Interval {
-  OptionLine() = default;
   OptionLine(std::string_view group, std::string_view name, const Interval& numbers,
              std::string_view help, const OptionFacts& facts);
 

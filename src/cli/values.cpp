@@ -101,7 +101,7 @@ void parse(ByteCount& value, const Typed& typed) {
   if (std::isnan(size) || size < 0 || size >= kMost) {
     refuse(typed, "is not a size", "Give bytes, or a number with K, M, G or T, such as 4G.");
   }
-  value = static_cast<std::uint64_t>(size);
+  value.bytes = static_cast<std::uint64_t>(size);
   if (size < typed.line.low) {
     const auto least = static_cast<std::uint64_t>(typed.line.low);
     refuse(typed, "is too little", "Give " + bytes(least) + " or more.");

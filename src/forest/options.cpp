@@ -19,13 +19,16 @@ constexpr double kLeastMemory = 512 << 20;
   throw Error(ErrorCode::usage, what, remedy);
 }
 
+/// Whether an option is given, and its flag.
+using Given = std::pair<bool, std::string>;
+
+void refuse_both(const Given& first, const Given& second, const std::string& remedy) {
+  if (!first.first || !second.first) return;
+  refuse(first.second + " and " + second.second + " contradict each other", remedy);
+}
+
 void check_contradictions(const ForestOptions& forest) {
-  const auto refuse_both = [](std::pair<bool, std::string> first,
-                              std::pair<bool, std::string> second, const std::string& remedy) {
-    if (!first.first || !second.first) return;
-    refuse(first.second + " and " + second.second + " contradict each other", remedy);
-  };
-  const std::pair resume(forest.resume, "--resume"), restart(forest.restart, "--restart"),
+  const Given resume(forest.resume, "--resume"), restart(forest.restart, "--restart"),
       finish(forest.finish, "--finish"), range(forest.range.has_value(), "--tile-range"),
       single(forest.single.has_value(), "--single"), levels(forest.levels > 1, "--levels"),
       tile(forest.tile.has_value(), "--tile"), apart(forest.merge == Merge::none, "--merge none");

@@ -153,7 +153,7 @@ class Run {
     }
     watch_.start("plan");
     tell("plan");
-    forest_.edge = tile_edge(scene_, forest_.levels, options_.tile, options_.memory, folder_);
+    forest_.edge = tile_edge(scene_, forest_.levels, options_.tile, options_.memory.bytes, folder_);
     for (const ForestLevel& level : forest_.levels) {
       forest_.plans.emplace_back(scene_, level, forest_.edge);
     }

@@ -12,67 +12,61 @@ namespace leafhull {
 namespace {
 
 /// So many whole numbers are told one by one.
-constexpr double kListed = 3;
+constexpr int kListed = 3;
 
-std::string text(double value) { return number_text(value); }
-std::string text(int value) { return std::to_string(value); }
-std::string text(std::uint64_t value) { return std::to_string(value); }
+/// How numbers of one kind are written.
+using Writer = std::string (*)(double);
+
+std::string whole_text(double value) { return std::to_string(std::llround(value)); }
 
 /// As --memory takes it.
-std::string text(ByteCount value) {
+std::string size_text(double value) {
   constexpr std::string_view kUnits = " KMGT";
-  std::uint64_t size = value;
+  auto size = std::llround(value);
   std::size_t unit = 0;
   for (; unit + 1 < kUnits.size() && size > 0 && size % 1024 == 0; ++unit) size /= 1024;
   return std::to_string(size) + (unit > 0 ? std::string(1, kUnits[unit]) : "");
 }
 
-/// The numbers as the help has them, the ends as values of type `Number`.
-template <class Number>
-std::string range_text(const Interval& numbers) {
-  const bool is_whole = !std::is_same_v<Number, double>;
-  const auto end = [](double value) { return text(static_cast<Number>(value)); };
-  const bool bounded_below = numbers.low > -kLargestNumber;
-  const bool bounded_above = numbers.high < kLargestNumber;
-  if (!bounded_above) {
-    if (!bounded_below) return "any number";
-    return (numbers.low_open ? "> " : ">= ") + end(numbers.low);
+/// The numbers as the help has them.
+std::string range_text(const Interval& numbers, Writer text) {
+  const auto& [low, high, low_open, high_open, step] = numbers;
+  if (high >= kLargestNumber) {
+    if (low <= -kLargestNumber) return "any number";
+    return (low_open ? "> " : ">= ") + text(low);
   }
-  if (numbers.step > 1) {
-    return end(numbers.low) + " to " + end(numbers.high) + ", a multiple of " + text(numbers.step);
-  }
-  if (is_whole && numbers.high - numbers.low < kListed) {
-    std::string list = end(numbers.low);
-    for (double n = numbers.low + 1; n <= numbers.high; ++n) list += ", " + end(n);
+  if (step > 1) return text(low) + " to " + text(high) + ", a multiple of " + text(step);
+  if (text == whole_text && high - low < kListed) {
+    std::string list = text(low);
+    for (int above = 1; above <= high - low; ++above) list.append(", ").append(text(low + above));
     return list;
   }
-  return (numbers.low_open ? "(" : "[") + end(numbers.low) + ", " + end(numbers.high) +
-         (numbers.high_open ? ")" : "]");
+  return (low_open ? "(" : "[") + text(low) + ", " + text(high) + (high_open ? ")" : "]");
 }
 
 void fill(std::string& text, std::string_view otherwise) {
   if (text.empty()) text = otherwise;
 }
 
-template <class Number>
-void describe_number(OptionLine& line, std::string_view word, Number value) {
+void describe_number(OptionLine& line, std::string_view word, double value, Writer text) {
   fill(line.value, word);
-  if (line.range.empty()) line.range = range_text<Number>(line);
+  if (line.range.empty()) line.range = range_text(line, text);
   fill(line.default_value, text(value));
 }
 
 std::string flag(const OptionLine& line) { return "--" + std::string(line.name); }
 
-template <class Number>
-void check_number(const OptionLine& line, Number value) {
-  const auto number = static_cast<double>(value);
-  const bool inside = std::isfinite(number) &&
-                      (line.high_open ? number < line.high : number <= line.high) &&
-                      (line.low_open ? number > line.low : number >= line.low);
-  const std::string what = flag(line) + " " + text(value);
-  if (!std::isfinite(number))
-    refuse_option(what + " is not a finite number", "Give a plain number.");
-  if (!inside) refuse_option(what + " is out of range", "Its range is " + line.range + ".");
+void check_number(const OptionLine& line, double value, Writer text) {
+  const bool inside = std::isfinite(value) &&
+                      (line.high_open ? value < line.high : value <= line.high) &&
+                      (line.low_open ? value > line.low : value >= line.low);
+  if (inside) return;
+  if (!std::isfinite(value)) {
+    refuse_option(flag(line) + " " + text(value) + " is not a finite number",
+                  "Give a plain number.");
+  }
+  refuse_option(flag(line) + " " + text(value) + " is out of range",
+                "Its range is " + line.range + ".");
 }
 
 }  // namespace
@@ -108,10 +102,17 @@ void describe(OptionLine& line, bool value) {
   fill(line.default_value, "off");
 }
 
-void describe(OptionLine& line, int value) { describe_number(line, "N", value); }
-void describe(OptionLine& line, double value) { describe_number(line, "X", value); }
-void describe(OptionLine& line, std::uint64_t value) { describe_number(line, "N", value); }
-void describe(OptionLine& line, ByteCount value) { describe_number(line, "SIZE", value); }
+void describe(OptionLine& line, int value) { describe_number(line, "N", value, whole_text); }
+
+void describe(OptionLine& line, double value) { describe_number(line, "X", value, number_text); }
+
+void describe(OptionLine& line, std::uint64_t value) {
+  describe_number(line, "N", static_cast<double>(value), whole_text);
+}
+
+void describe(OptionLine& line, ByteCount value) {
+  describe_number(line, "SIZE", static_cast<double>(value.bytes), size_text);
+}
 
 void describe_names(OptionLine& line, std::span<const std::string_view> names, std::size_t value) {
   line.choices = names;
@@ -146,18 +147,24 @@ void describe(OptionLine& line, const std::vector<std::filesystem::path>&) {
 
 void describe(OptionLine& line, const Vec2d&) { fill(line.value, "WxD"); }
 
-void check_value(const OptionLine& line, double value) { check_number(line, value); }
+void check_value(const OptionLine& line, double value) { check_number(line, value, number_text); }
 
 void check_value(const OptionLine& line, int value) {
-  check_number(line, value);
+  check_number(line, value, whole_text);
   if (value % line.step == 0) return;
   const int below = value - value % line.step;
-  refuse_option(flag(line) + " " + text(value) + " is no multiple of " + text(line.step),
-                "Give " + text(below) + " or " + text(below + line.step) + ".");
+  refuse_option(
+      flag(line) + " " + std::to_string(value) + " is no multiple of " + std::to_string(line.step),
+      "Give " + std::to_string(below) + " or " + std::to_string(below + line.step) + ".");
 }
 
-void check_value(const OptionLine& line, std::uint64_t value) { check_number(line, value); }
-void check_value(const OptionLine& line, ByteCount value) { check_number(line, value); }
+void check_value(const OptionLine& line, std::uint64_t value) {
+  check_number(line, static_cast<double>(value), whole_text);
+}
+
+void check_value(const OptionLine& line, ByteCount value) {
+  check_number(line, static_cast<double>(value.bytes), size_text);
+}
 
 void check_value(const OptionLine& line, const std::vector<std::string>& value) {
   for (const std::string& glob : value) {

@@ -26,7 +26,7 @@ nlohmann::ordered_json to_json_value(const Value& value) {
   if constexpr (std::is_enum_v<Value>) {
     return name(value);
   } else if constexpr (std::is_same_v<Value, ByteCount>) {
-    return value.count;
+    return value.bytes;
   } else if constexpr (std::is_same_v<Value, std::filesystem::path>) {
     return value.string();
   } else {

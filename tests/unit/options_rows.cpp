@@ -109,8 +109,8 @@ TEST(ForestOptions, BoundsOfTheTableAreKept) {
   EXPECT_EQ(forest_refusal([](auto& o) { o.tile = 100; }),
             "--tile 100 is no multiple of 32. Give 96 or 128.");
   EXPECT_NE(forest_refusal([](auto& o) { o.tile = 544; }), "");
-  EXPECT_NE(forest_refusal([](auto& o) { o.memory = 1 << 20; }), "");
-  EXPECT_EQ(forest_refusal([](auto& o) { o.memory = 512 << 20; }), "");
+  EXPECT_NE(forest_refusal([](auto& o) { o.memory = {1 << 20}; }), "");
+  EXPECT_EQ(forest_refusal([](auto& o) { o.memory = {512 << 20}; }), "");
   EXPECT_EQ(forest_refusal([](auto& o) { o.range = {4, 4}; }), "");
   EXPECT_NE(forest_refusal([](auto& o) {
               o.range = {5, 4};
