@@ -16,14 +16,6 @@ namespace {
 constexpr std::size_t kIndent = 28;
 constexpr std::size_t kWidth = 98;
 
-std::string spelled(const OptionLine& line) {
-  std::string text = line.spelling;
-  if (const std::size_t comma = text.find(','); comma != std::string::npos) {
-    text.insert(comma + 1, " ");
-  }
-  return line.value.empty() ? text : text + " " + line.value;
-}
-
 std::string padded(std::string text, std::size_t width) {
   text.resize(std::max(text.size(), width), ' ');
   return text;
@@ -56,13 +48,6 @@ std::string entry(std::string_view term, const std::vector<std::string>& lines) 
 
 std::string entry(std::string_view term, std::string_view text) {
   return entry(term, wrapped(text));
-}
-
-/// Unit, range and default, as far as there are.
-std::string facts(const OptionLine& line) {
-  const std::string by_default = line.default_value.empty() ? "" : "default " + line.default_value;
-  const std::string_view all[] = {line.unit, line.range, by_default};
-  return joined(all, "; ");
 }
 
 /// The meaning with unit, range and default; these on a line of their own where they do not fit.
@@ -126,11 +111,32 @@ Verb table_verb(std::string_view name, std::string_view about, std::string_view 
 
 }  // namespace
 
+std::string spelled(const OptionLine& line) {
+  std::string text = line.spelling;
+  if (const std::size_t comma = text.find(','); comma != std::string::npos) {
+    text.insert(comma + 1, " ");
+  }
+  return line.value.empty() ? text : text + " " + line.value;
+}
+
+std::string facts(const OptionLine& line) {
+  const std::string by_default = line.default_value.empty() ? "" : "default " + line.default_value;
+  const std::string_view all[] = {line.unit, line.range, by_default};
+  return joined(all, "; ");
+}
+
+std::string_view command_about() {
+  return "leafhull turns the leaves of a tree model into its abstract shape: the closed surface\n"
+         "a painter would block in before drawing a single leaf.";
+}
+
+std::string_view exit_codes() {
+  return "0 done, 1 internal error, 2 usage, 3 input, 4 device, 5 output, 6 the shape is empty";
+}
+
 std::string command_help(std::span<const Verb> verbs) {
-  std::string page =
-      "leafhull turns the leaves of a tree model into its abstract shape: the closed surface\n"
-      "a painter would block in before drawing a single leaf.\n"
-      "\nUsage\n  leafhull VERB [options]\n\nVerbs\n";
+  std::string page(command_about());
+  page += "\n\nUsage\n  leafhull VERB [options]\n\nVerbs\n";
   for (const Verb& verb : verbs) {
     if (!verb.hidden) page += entry(verb.name, verb.summary);
   }
@@ -141,16 +147,16 @@ std::string command_help(std::span<const Verb> verbs) {
          "  leafhull inspect tree.glb                 what is in the file, and what to type next\n"
          "  leafhull extract tree.glb -o shape.glb    the shape, to open in Blender\n"
          "  leafhull extract --help                   every option, with unit, range and default\n"
-         "\nExit codes\n"
-         "  0 done, 1 internal error, 2 usage, 3 input, 4 device, 5 output, 6 the shape is empty\n";
+         "\nExit codes\n  " +
+         std::string(exit_codes()) + "\n";
 }
 
 std::string verb_help(const Verb& verb) {
   std::string page(verb.about);
   page.append("\n\nUsage\n  leafhull ").append(verb.name);
-  if (verb.takes_tree || verb.takes_trees) page.append(" ").append(verb.operand);
+  if (verb.takes_operand()) page.append(" ").append(verb.operand);
   page += " [options]\n";
-  if (verb.takes_tree || verb.takes_trees) page += "\n" + entry(verb.operand, verb.operand_help);
+  if (verb.takes_operand()) page += "\n" + entry(verb.operand, verb.operand_help);
   std::string_view group;
   for (const Flag& flag : verb.flags) {
     if (flag.hidden) continue;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <array>
 #include <exception>
 #include <iostream>
+#include <vector>
 
 #include "cli/console.h"
 #include "cli/help.h"
@@ -67,11 +67,7 @@ CLI::App* add_verb(CLI::App& app, const Verb& verb, Arguments& arguments) {
 }
 
 void run(const std::vector<std::string>& command) {
-  const std::array verbs = {extract_verb(),      inspect_verb(),      suggest_verb(),
-                            sweep_verb(),        study_verb(),        render_verb(),
-                            forest_verb(),       scatter_verb(),      devices_verb(),
-                            help_options_verb(), help_forests_verb(), help_pictures_verb(),
-                            help_styles_verb()};
+  const std::vector<Verb> verbs = all_verbs();
   const std::vector<Flag> flags = help_flags();
   Arguments arguments;
   arguments.command = command;
