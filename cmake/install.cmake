@@ -17,3 +17,21 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/leafhullConfigVersion.cma
                                  COMPATIBILITY SameMinorVersion)
 install(FILES cmake/leafhullConfig.cmake ${PROJECT_BINARY_DIR}/leafhullConfigVersion.cmake
         DESTINATION ${leafhull_cmake_dir})
+
+# The manual and the shells' completion, as the command itself prints them; a command that is built for
+# another machine, or with sanitizers, is not run here.
+if(NOT CMAKE_CROSSCOMPILING AND NOT "${CMAKE_CXX_FLAGS} ${CMAKE_CXX_FLAGS_RELWITHDEBINFO}" MATCHES "-fsanitize")
+  # leafhull_printed(FILE FOLDER WORD...): what `leafhull WORD...` prints, installed as FOLDER/FILE.
+  function(leafhull_printed file folder)
+    set(output ${PROJECT_BINARY_DIR}/printed/${file})
+    add_custom_command(OUTPUT ${output} DEPENDS leafhull_command VERBATIM
+      COMMAND ${CMAKE_COMMAND} -E make_directory ${PROJECT_BINARY_DIR}/printed
+      COMMAND leafhull_command ${ARGN} > ${output})
+    add_custom_target(print_${file} ALL DEPENDS ${output})
+    install(FILES ${output} DESTINATION ${folder})
+  endfunction()
+  leafhull_printed(leafhull.1 ${CMAKE_INSTALL_MANDIR}/man1 help-manual)
+  leafhull_printed(leafhull ${CMAKE_INSTALL_DATADIR}/bash-completion/completions completion bash)
+  leafhull_printed(_leafhull ${CMAKE_INSTALL_DATADIR}/zsh/site-functions completion zsh)
+  leafhull_printed(leafhull.fish ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d completion fish)
+endif()

@@ -4,8 +4,12 @@
 #include <cstddef>
 #include <future>
 #include <memory>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
+
+#include "leafhull/option_row.h"
 
 namespace leafhull {
 
@@ -24,8 +28,14 @@ struct DeviceInfo {
 struct DeviceOptions {
   std::string choice;   ///< index or part of a name; empty: a GPU if there is one, else a CPU
   int threads = 0;      ///< bounds OpenCL (PoCL) and TBB; 0: all cores
-  std::string variant;  ///< "vector" or "work-item"; empty: by device type
+  std::string variant;  ///< one of kernel_variants(); empty: by device type
 };
+
+/// The names of the density kernels: "vector" and "work-item".
+std::span<const std::string_view> kernel_variants();
+
+using DeviceOptionRow = RowOver<DeviceOptions, std::string, int>;
+std::span<const DeviceOptionRow> device_table();
 
 /// Every OpenCL device, in the order of their indices, and which one `options` would choose.
 /// Empty where no platform is installed.

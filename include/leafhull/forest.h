@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "leafhull/device.h"
+#include "leafhull/option_row.h"
 #include "leafhull/options.h"
 #include "leafhull/output.h"
 #include "leafhull/scene.h"
@@ -35,17 +36,31 @@ struct ForestOptions {
   Options shape;  ///< as of an extraction; a resolution counts along the largest tree
   Merge merge = Merge::canopy;
   ControlScope control_scope = ControlScope::model;
-  int levels = 1;                                 ///< of abstraction, 1 to 8
-  std::uint64_t memory = std::uint64_t{4} << 30;  ///< bytes that a rank may hold
-  std::optional<int> tile;  ///< voxels along a tile's edge, a multiple of 32 up to 512; empty: 128,
-                            ///< or less where the memory asks for it
-  std::optional<TileRange> range;  ///< only these tiles, nothing after them
-  bool finish = false;             ///< only what follows when every tile is there
-  bool resume = false;             ///< goes on with what an earlier run has left in the folder
-  bool restart = false;            ///< removes what an earlier run has left there
+  int levels = 1;                               ///< of abstraction
+  ByteCount memory = {std::uint64_t{4} << 30};  ///< that a rank may hold
+  std::optional<int> tile;                      ///< voxels along a tile's edge; empty: 128, or less
+                                                ///< where the memory asks for it
+  std::optional<TileRange> range;               ///< only these tiles, nothing after them
+  bool finish = false;                          ///< only what follows when every tile is there
+  bool resume = false;   ///< goes on with what an earlier run has left in the folder
+  bool restart = false;  ///< removes what an earlier run has left there
   /// .glb or .ply, relative to the folder: all tiles of level 0, welded.
   std::optional<std::filesystem::path> single;
 };
+
+void describe(OptionLine& line, const TileRange& value);
+void check_value(const OptionLine& line, const TileRange& value);
+
+using ForestOptionRow =
+    RowOver<ForestOptions, bool, int, ByteCount, Merge, ControlScope, std::optional<int>,
+            std::optional<TileRange>, std::optional<std::filesystem::path>>;
+
+/// The options of a forest beside those of its trees' shape.
+std::span<const ForestOptionRow> forest_table();
+
+/// Looks at the options before any work is done, those of the shape too.
+/// @throws Error usage: a value out of range, or two options that contradict each other.
+void check_forest(const ForestOptions& options);
 
 /// Where a run is.
 struct ForestProgress {

@@ -5,10 +5,10 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <variant>
 #include <vector>
 
 #include "leafhull/leaves.h"
+#include "leafhull/option_row.h"
 
 namespace leafhull {
 
@@ -107,42 +107,23 @@ Options resolve(Options options);
 /// the style's, from which the search starts. SPEC: 4.
 double radius_max_in_model_units(const LeafSet& leaves, const Options& resolved);
 
-/// One row per option: the flags, the report's parameters and README's table derive from it.
-struct OptionRow {
-  using Member =
-      std::variant<bool Options::*, int Options::*, double Options::*,
-                   std::optional<int> Options::*, std::optional<double> Options::*,
-                   std::optional<Up> Options::*, Style Options::*, std::optional<Method> Options::*,
-                   RadiusUnit Options::*, std::optional<PointSource> Options::*, Spread Options::*,
-                   DensitySource Options::*, std::optional<Hollows> Options::*, Mesher Options::*,
-                   std::optional<Preset> Options::*, std::vector<std::string> Options::*,
-                   std::optional<TextureEllipse> Options::*, std::optional<LeafColour> Options::*,
-                   std::optional<Srgb> Options::*>;
+void describe(OptionLine& line, const TextureEllipse& value);
+void describe(OptionLine& line, const LeafColour& value);
+void describe(OptionLine& line, const Srgb& value);
+void check_value(const OptionLine& line, const TextureEllipse& value);
+void check_value(const OptionLine& line, const LeafColour& value);
+inline void check_value(const OptionLine&, const Srgb&) {}
 
-  /// As in the flag --name and, with underscores, in the report. What is on by default has the
-  /// flag --no-name.
-  std::string_view name;
-  std::string_view group;          ///< "Leaves", "Shape", "Resolution", ...
-  std::string_view unit = "";      ///< "" where it has none
-  std::string_view range = "";     ///< in words or as an interval, e.g. "(0, 1]"
-  std::string_view default_value;  ///< in words, e.g. "by style"
-  std::string_view help;
-  Member member;
-  double low = 0, high = 0;  ///< bounds of a number
-  bool low_open = false;     ///< the lower bound itself is excluded
-  bool high_open = false;    ///< the upper bound itself is excluded
-  /// The option that takes X where this one's text is X%; empty where % says nothing.
-  std::string_view percent = "";
-};
+using OptionRow =
+    RowOver<Options, bool, int, double, std::optional<int>, std::optional<double>,
+            std::optional<Up>, Style, std::optional<Method>, RadiusUnit, std::optional<PointSource>,
+            Spread, DensitySource, std::optional<Hollows>, Mesher, std::optional<Preset>,
+            std::vector<std::string>, std::optional<TextureEllipse>, std::optional<LeafColour>,
+            std::optional<Srgb>>;
 
 std::span<const OptionRow> option_table();
 
 /// The row of that name, which the table has.
 const OptionRow& option_row(std::string_view name);
-
-/// Whether `X%` is a value of the row: of another option, or X / 100 of a fraction.
-inline bool takes_percent(const OptionRow& row) {
-  return !row.percent.empty() || row.unit == "fraction";
-}
 
 }  // namespace leafhull

@@ -3,10 +3,12 @@
 
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "leafhull/option_row.h"
 #include "leafhull/shape.h"
 
 namespace leafhull {
@@ -18,6 +20,10 @@ struct OutputFiles {
   std::optional<std::filesystem::path> field = {};    ///< .vdb
   std::optional<std::filesystem::path> report = {};   ///< .json; "-" is standard output
 };
+
+using OutputOptionRow =
+    RowOver<OutputFiles, std::vector<std::filesystem::path>, std::optional<std::filesystem::path>>;
+std::span<const OutputOptionRow> output_table();
 
 /// What the report says beside the extraction itself.
 struct RunDescription {

@@ -8,11 +8,13 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
 
 #include "leafhull/device.h"
 #include "leafhull/leaves.h"
+#include "leafhull/option_row.h"
 #include "leafhull/options.h"
 #include "leafhull/picture.h"
 #include "leafhull/shape.h"
@@ -186,5 +188,49 @@ void check_figure17(const PictureOptions& picture, const DeviceInfo* device = nu
 Picture figure17(const std::shared_ptr<const TreeModel>& tree, const LeafSet& leaves,
                  const Options& options, Plate plate, Surfacing surfacing,
                  const PictureOptions& picture, Device& device, const Progress& progress = {});
+
+/// What a file is drawn as.
+enum class Drawn { tree, shape };
+
+std::span<const std::string_view> names(Drawn);
+
+/// What `leafhull render` asks for, as it is typed.
+struct RenderOptions : PictureOptions {
+  std::vector<std::filesystem::path> files;   ///< as of PictureFiles
+  std::optional<int> frames;                  ///< of a turntable; empty: one picture
+  std::string camera_name = "three-quarter";  ///< a viewpoint, or the file of a View
+  std::optional<Surfacing> surfacing;         ///< empty: a mesh of a shape, else direct
+  std::string style_name;                     ///< of a watercolour, or its file; empty: the first
+  std::optional<double> detail;               ///< in place of the style's own
+  std::optional<Drawn> drawn_as;              ///< empty: by the names in the file
+  bool beside = false;                        ///< the tree itself to the left of its shape
+  std::optional<Plate> figure17;              ///< a plate in place of a picture
+
+  PictureFiles picture_files() const { return {files, frames.value_or(0)}; }
+};
+
+void describe(OptionLine& line, Plate value);
+inline void check_value(const OptionLine&, Plate) {}
+
+/// The sides of a picture are two members.
+using RenderOptionRow =
+    RowOf<RenderOptions, bool RenderOptions::*, std::vector<std::filesystem::path> RenderOptions::*,
+          Look RenderOptions::*, std::pair<int RenderOptions::*, int RenderOptions::*>,
+          std::string RenderOptions::*, std::optional<int> RenderOptions::*,
+          std::optional<Surfacing> RenderOptions::*, std::optional<double> RenderOptions::*,
+          std::optional<Drawn> RenderOptions::*, std::optional<Plate> RenderOptions::*>;
+
+/// The options of pictures beside those of the shape.
+std::span<const RenderOptionRow> render_table();
+
+/// Whether a file is drawn as a density: a .vdb file.
+bool is_field(const std::filesystem::path& subject);
+
+/// The picture that is asked for, with its camera and its style, which are read. All is checked but
+/// the subject itself, and what a device takes.
+/// @throws Error usage: a value out of range, options or files that contradict each other; input:
+/// a camera or a style that cannot be read; output, as check_pictures.
+PictureOptions picture_of(const RenderOptions& options, const std::filesystem::path& subject,
+                          const ReadOptions& reading);
 
 }  // namespace leafhull

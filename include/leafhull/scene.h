@@ -7,10 +7,13 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "leafhull/leaves.h"
+#include "leafhull/option_row.h"
 #include "leafhull/tree.h"
 #include "leafhull/vec.h"
 
@@ -70,7 +73,7 @@ struct ScatterOptions {
   std::vector<std::filesystem::path> trees;  ///< equally often; one named twice twice as often
   LeafOptions leaves;                        ///< of the trees
   ReadOptions reading;                       ///< of their files
-  std::size_t count = 0;                     ///< 1 to 1,000,000
+  std::size_t count = 0;                     ///< at least 1
   std::uint64_t seed = 1;
   /// Sides of the rectangle along x and z, centred on the origin; empty: as wide as `spacing` asks.
   std::optional<Vec2d> area;
@@ -80,6 +83,17 @@ struct ScatterOptions {
   double scale_low = 0.8, scale_high = 1.2;  ///< evenly between; > 0
   std::optional<HeightMap> ground;           ///< over the whole rectangle; empty: y = 0
 };
+
+/// Ends of a range, and members of the height map, are no members of the options themselves.
+using ScatterOptionRow =
+    RowOf<ScatterOptions, std::size_t ScatterOptions::*, double ScatterOptions::*,
+          std::optional<Vec2d> ScatterOptions::*,
+          std::pair<double ScatterOptions::*, double ScatterOptions::*>,
+          std::pair<std::optional<HeightMap> ScatterOptions::*, std::filesystem::path HeightMap::*>,
+          std::pair<std::optional<HeightMap> ScatterOptions::*, double HeightMap::*>>;
+
+/// The options of a scatter beside its trees and what is read of them.
+std::span<const ScatterOptionRow> scatter_table();
 
 /// A scatter file with trees at the points of a Poisson-disk pattern: no two are closer than about
 /// 0.78 sqrt(area / count). Yaws are even. The same options give the same bytes.

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -10,6 +9,7 @@
 
 #include "leafhull/device.h"
 #include "leafhull/forest.h"
+#include "leafhull/option_row.h"
 #include "leafhull/options.h"
 #include "leafhull/output.h"
 #include "leafhull/render.h"
@@ -20,42 +20,27 @@ namespace leafhull::cli {
 
 /// What a command line asks for.
 struct Arguments {
-  std::vector<std::string> command;  ///< the words as typed
-  std::filesystem::path tree;
-  Options options;
-  std::set<std::string_view> given;  ///< names of typed options, as option_table() has them
-  std::string typed;                 ///< the options again, quoted for a shell
-  OutputFiles files;
-  DeviceOptions device;
-  bool quiet = false, verbose = false;
-  bool json = false;
+  std::vector<std::string> command;          ///< the words as typed
+  std::filesystem::path operand;             ///< of a verb that takes one: a tree, a scene, a shell
+  std::vector<std::filesystem::path> trees;  ///< of a verb that takes several
+  std::set<std::string_view> given;          ///< names of typed options, as their rows have them
 
-  // sweep
+  Options options;
+  std::string typed;  ///< the options again, quoted for a shell
+  OutputFiles files;
+  std::filesystem::path output;  ///< the one file or folder that other verbs write
+  RenderOptions render;
+  ForestOptions forest;
+  ScatterOptions scatter;
   std::vector<SweptOption> swept;  ///< more than one value each
   bool yes = false, restart = false;
 
-  std::filesystem::path picture;  ///< suggest
-
-  // render
-  std::string camera = "three-quarter", watercolour_style;
-  PictureOptions drawing;
-  PictureFiles pictures;
-  std::optional<Surfacing> surfacing;
-  std::optional<double> detail;
-  std::optional<bool> is_shape;
-  bool beside = false;
-  std::optional<Plate> figure17;
-
-  // scatter
-  ScatterOptions scatter;
-  std::filesystem::path scatter_file;
-
-  // forest
-  ForestOptions forest;
-
-  // study
-  std::vector<std::filesystem::path> trees;
-  std::filesystem::path folder;
+  DeviceOptions device;
+  bool quiet = false, verbose = false;
+  bool json = false;
 };
+
+/// A row of what only the command knows.
+using ArgumentRow = RowOver<Arguments, bool, std::filesystem::path>;
 
 }  // namespace leafhull::cli

@@ -1,15 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <sys/resource.h>
-
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <future>
-#include <iterator>
 #include <span>
 #include <utility>
 
-#include "cli/console.h"
+#include "cli/context.h"
 #include "cli/signals.h"
 #include "cli/values.h"
 #include "cli/verb.h"
@@ -19,42 +14,6 @@
 
 namespace leafhull::cli {
 namespace {
-
-/// Times the stages around the extraction itself.
-class Stages {
- public:
-  explicit Stages(Console& console) : console_(console) {}
-
-  template <class Work>
-  auto run(std::string_view stage, Work&& work) {
-    console_.progress(stage, 0);
-    const Clock::time_point begin = Clock::now();
-    auto result = work();
-    times_.push_back({std::string(stage), since(begin)});
-    return result;
-  }
-
-  /// What the extraction itself took.
-  void append(const std::vector<StageTime>& extraction) {
-    const auto is_stage = [](const StageTime& time) { return time.stage != "total"; };
-    std::copy_if(extraction.begin(), extraction.end(), std::back_inserter(times_), is_stage);
-  }
-
-  std::vector<StageTime> with_total() const {
-    std::vector<StageTime> all = times_;
-    all.push_back({"total", total()});
-    return all;
-  }
-
-  double total() const { return since(start_); }
-
- private:
-  using Clock = std::chrono::steady_clock;
-
-  Console& console_;
-  Clock::time_point start_ = Clock::now();
-  std::vector<StageTime> times_;
-};
 
 std::vector<std::filesystem::path> named(const OutputFiles& files) {
   std::vector<std::filesystem::path> all = files.shapes;
@@ -95,12 +54,6 @@ std::vector<std::string> without_effect(const Arguments& arguments, const Option
                        " counts in that unit");
   }
   return warnings;
-}
-
-std::uint64_t peak_memory_bytes() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
 }
 
 void say_summary(Console& console, const Shape& shape, const OutputFiles& files, double elapsed) {
@@ -149,50 +102,32 @@ void say_times(Console& console, const std::vector<StageTime>& times) {
 }
 
 void run_extract(const Arguments& arguments) {
-  Console console(arguments.quiet, arguments.verbose);
+  Context context(arguments);
   check_extract_arguments(arguments);
   const Options options = resolve(arguments.options);
-  check_outputs(arguments.files, arguments.tree);
-  std::vector<std::string> warnings;
-  const auto warn = [&](const std::vector<std::string>& more) {
-    for (const std::string& warning : more) console.warn(warning);
-    warnings.insert(warnings.end(), more.begin(), more.end());
-  };
-  warn(without_effect(arguments, options));
+  check_outputs(arguments.files, arguments.operand);
+  context.warn(without_effect(arguments, options));
   catch_signals();
 
-  Stages stages(console);
-  std::future<Device> opening = open_device(arguments.device, options.falloff);
-  const LeafSet leaves = [&] {  // the tree is given back before the extraction needs the memory
-    const TreeModel tree = stages.run(
-        "read", [&] { return read_tree(arguments.tree, arguments.options.read_options()); });
-    warn(tree.warnings);
-    return stages.run("leaves", [&] { return find_leaves(tree, options.leaf_options()); });
-  }();
-  warn(leaves.warnings);
-  Device device = stages.run("device", [&] { return opening.get(); });
-  Shape shape = extract(leaves, options, device, [&](std::string_view stage, double done) {
-    console.progress(stage, done);
-  });
-
+  context.open_device(options.falloff);
+  const LeafSet leaves = context.read_leaves(options.leaf_options());
+  Shape shape = extract(leaves, options, context.device(), context.progress());
   Report& report = shape.report;
-  for (const std::string& warning : report.warnings) {
-    if (std::find(warnings.begin(), warnings.end(), warning) == warnings.end()) warn({warning});
-  }
-  warn(rounding_warnings(arguments.files, shape));
-  report.warnings = warnings;
-  stages.append(report.seconds);
-  report.seconds = stages.with_total();
+  context.warn(report.warnings);
+  context.warn(rounding_warnings(arguments.files, shape));
+  report.warnings = context.warnings();
+  context.add_times(report.seconds);
+  report.seconds = context.times();
   report.peak_memory_bytes = peak_memory_bytes();
-  stages.run("write", [&] {
-    write_outputs(arguments.files, shape, {arguments.tree.string(), arguments.command});
+  context.timed("write", [&] {
+    write_outputs(arguments.files, shape, {arguments.operand.string(), arguments.command});
     return true;
   });
 
-  say_details(console, report);
-  say_times(console, stages.with_total());
-  console.say(leaves.choice->told);
-  say_summary(console, shape, arguments.files, stages.total());
+  say_details(context.console, report);
+  say_times(context.console, context.times());
+  context.console.say(leaves.choice->told);
+  say_summary(context.console, shape, arguments.files, context.elapsed());
 }
 
 }  // namespace
@@ -207,8 +142,8 @@ Verb extract_verb() {
               "  leafhull extract birch.glb -o thin.glb --style thin --threshold 40%\n"
               "  leafhull extract birch.glb --leaves '*twig*' -o shape.ply --report shape.json\n",
           .takes_tree = true,
-          .flags = all_of(
-              {option_flags(), output_flags(), device_flags(), console_flags(), help_flags()}),
+          .flags = all_of({option_flags(), flags_of(output_table(), &Arguments::files),
+                           device_flags(), console_flags(), help_flags()}),
           .run = run_extract};
 }
 

@@ -3,11 +3,13 @@
 
 #include <functional>
 #include <initializer_list>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "cli/arguments.h"
+#include "cli/values.h"
 
 namespace CLI {
 class App;
@@ -15,43 +17,45 @@ class App;
 
 namespace leafhull::cli {
 
-/// A flag of the command line and its line of help.
+/// A flag of the command line: the line of its row, and what it does.
 struct Flag {
-  std::string spelling;         ///< "-o,--output"
-  std::string_view value = "";  ///< "FILE"; empty: the flag takes none
-  std::string_view word = "";   ///< what may follow a flag that takes no other value
-  std::string_view group;
-  std::string_view unit = "", range = "", default_value = "";
-  std::string_view help;
-  bool repeatable = false;
-  bool hidden = false;  ///< understood, and in no table
+  OptionLine line;
   std::function<void(Arguments&, const std::string& value)> set;
+  bool hidden = false;  ///< understood, and in no table
 };
 
-/// An option's flag: --no-snap of `snap`, which is on without it.
-std::string spelling(const OptionRow& row);
+/// The flags of rows, or of one group of them, of options that `part` finds in the arguments.
+template <class Struct, class... Members, class Part>
+std::vector<Flag> flags_of(std::span<const RowOf<Struct, Members...>> rows, Part part,
+                           std::string_view group = {}) {
+  std::vector<Flag> flags;
+  for (const auto& row : rows) {
+    if (!group.empty() && row.group != group) continue;
+    flags.push_back({row, [&row, part](Arguments& arguments, const std::string& text) {
+                       set_value(std::invoke(part, arguments), row, {.line = row, .text = text});
+                       arguments.given.insert(row.name);
+                     }});
+  }
+  return flags;
+}
 
-/// The words of a command, each flag made one with the word that may follow it.
-std::vector<std::string> joined_words(std::vector<std::string> command,
-                                      const std::vector<Flag>& flags);
+/// The flags of what only the command knows.
+std::vector<Flag> flags_of(std::span<const ArgumentRow> rows);
 
 /// The rows of option_table(), or of one group of them.
 std::vector<Flag> option_flags(std::string_view group = {});
-/// The same, several values at once where a sweep takes them.
-std::vector<Flag> swept_flags();
-std::vector<Flag> output_flags();
-std::vector<Flag> sweep_flags();
-std::vector<Flag> suggest_flags();
-std::vector<Flag> render_flags();
 /// Those of a forest as a whole.
 std::vector<Flag> forest_flags();
-/// The options of its trees; those that tiles cannot have are refused with the reason.
-std::vector<Flag> tree_flags();
+std::vector<Flag> render_flags();
 std::vector<Flag> device_flags();
 std::vector<Flag> console_flags();
 std::vector<Flag> json_flags();
 std::vector<Flag> help_flags();
 std::vector<Flag> all_of(std::initializer_list<std::vector<Flag>> groups);
+
+/// The words of a command, each flag made one with the word that may follow it.
+std::vector<std::string> joined_words(std::vector<std::string> command,
+                                      const std::vector<Flag>& flags);
 
 /// Makes `app` understand the flags; they write to `arguments`, which outlives the parse.
 void add_flags(CLI::App& app, const std::vector<Flag>& flags, Arguments& arguments);

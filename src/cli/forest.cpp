@@ -3,14 +3,12 @@
 
 #include <malloc.h>
 
-#include <chrono>
-#include <future>
 #include <iostream>
 #include <limits>
 #include <string>
 #include <utility>
 
-#include "cli/console.h"
+#include "cli/context.h"
 #include "cli/forest_words.h"
 #include "cli/values.h"
 #include "cli/verb.h"
@@ -22,36 +20,38 @@ namespace leafhull::cli {
 namespace {
 
 namespace fs = std::filesystem;
-using Clock = std::chrono::steady_clock;
 
-void refuse_together(bool first_given, std::string_view first, bool second_given,
-                     std::string_view second, const std::string& remedy) {
-  if (!first_given || !second_given) return;
-  throw Error(ErrorCode::usage,
-              std::string(first) + " and " + std::string(second) + " contradict each other",
-              remedy);
+std::vector<Flag> forest_output_flags() {
+  static const ArgumentRow folder[] = {
+      ArgumentRow("Output", "output", &Arguments::output,
+                  "keeps the forest: tileset.json with its tiles, or forest.glb",
+                  {.range = "made where it is missing", .value = "DIR", .letter = 'o'})};
+  static const OutputOptionRow report[] = {
+      OutputOptionRow("Output", "report", &OutputFiles::report,
+                      "options, counts, times, memory, and a row for each tile",
+                      {.range = ".json, or - for standard output"})};
+  return all_of({flags_of(folder), flags_of(forest_table(), &Arguments::forest, "Output"),
+                 flags_of(std::span<const OutputOptionRow>(report), &Arguments::files)});
 }
 
-void check_contradictions(const ForestOptions& forest) {
-  const bool ranged = forest.range.has_value(), single = forest.single.has_value();
-  refuse_together(forest.resume, "--resume", forest.restart, "--restart",
-                  "Go on with what DIR holds, or begin anew.");
-  refuse_together(forest.finish, "--finish", ranged, "--tile-range",
-                  "Compute every part first, then finish once.");
-  refuse_together(forest.finish, "--finish", forest.restart, "--restart",
-                  "To finish needs the tiles that --restart removes.");
-  refuse_together(ranged, "--tile-range", forest.restart, "--restart",
-                  "A part would remove what others have done: empty DIR first.");
-  refuse_together(ranged, "--tile-range", single, "--single",
-                  "It is made of all tiles: give it to --finish.");
-
-  const bool apart = forest.merge == Merge::none;
-  const std::string remedy = "Without --merge none there are tiles and levels.";
-  refuse_together(apart, "--merge none", forest.levels > 1, "--levels", remedy);
-  refuse_together(apart, "--merge none", single, "--single", remedy);
-  refuse_together(apart, "--merge none", forest.tile.has_value(), "--tile", remedy);
-  refuse_together(apart, "--merge none", ranged, "--tile-range", remedy);
-  refuse_together(apart, "--merge none", forest.finish, "--finish", remedy);
+/// The options of its trees; those that tiles cannot have are refused with the reason.
+std::vector<Flag> tree_flags() {
+  constexpr std::pair<std::string_view, std::string_view> kRefused[] = {
+      {"mesher", "tiles meet without cracks by the mesher over bricks alone"},
+      {"adaptivity", "merged triangles would leave cracks between tiles"}};
+  std::vector<Flag> flags = option_flags();
+  for (Flag& flag : flags) {
+    for (const auto& [option, why] : kRefused) {
+      if (flag.line.name != option) continue;
+      flag.hidden = true;
+      flag.set = [option = option, why = why](Arguments&, const std::string&) {
+        throw Error(ErrorCode::usage,
+                    "--" + std::string(option) + " is not for forests: " + std::string(why),
+                    "Leave it out.");
+      };
+    }
+  }
+  return flags;
 }
 
 /// A forest writes over these names in its folder, and --restart removes what bears them.
@@ -76,34 +76,33 @@ void check_name(const fs::path& file, std::string_view what, const fs::path& fol
 /// The forest's own folder may not be there yet.
 void check_file(const fs::path& file, std::string_view extension, const Arguments& arguments,
                 const fs::path& input) {
-  const bool in_folder = fs::proximate(file, arguments.folder).parent_path().empty();
+  const bool in_folder = fs::proximate(file, arguments.output).parent_path().empty();
   const bool is_named_well = lower_extension(file) == extension;
-  if (in_folder && is_named_well && !fs::exists(arguments.folder)) return;
+  if (in_folder && is_named_well && !fs::exists(arguments.output)) return;
   check_output(file, extension, input);
 }
 
-void check_forest_arguments(const Arguments& arguments) {
-  (void)resolve(arguments.options);
-  if (arguments.folder.empty()) {
+void check_forest_arguments(const Arguments& arguments, const ForestOptions& forest) {
+  if (arguments.output.empty()) {
     throw Error(ErrorCode::usage, "no folder for the forest is named", "Name one: -o out/.");
   }
-  check_contradictions(arguments.forest);
-  check_name(arguments.tree, "the scene", arguments.folder);
+  check_forest(forest);
+  check_name(arguments.operand, "the scene", arguments.output);
   if (const std::optional<fs::path>& single = arguments.forest.single) {
     const std::string extension = lower_extension(*single);
     if (extension != ".glb" && extension != ".ply") {
       throw Error(ErrorCode::usage, "--single cannot be written to " + single->string(),
                   "Name a .glb or .ply file.");
     }
-    check_name(*single, "--single", arguments.folder);
-    check_file(*single, extension, arguments, arguments.tree);
+    check_name(*single, "--single", arguments.output);
+    check_file(*single, extension, arguments, arguments.operand);
   }
   const std::optional<fs::path>& report = arguments.files.report;
   if (report && *report != "-") {
-    check_name(*report, "--report", arguments.folder);
-    check_file(*report, ".json", arguments, arguments.tree);
+    check_name(*report, "--report", arguments.output);
+    check_file(*report, ".json", arguments, arguments.operand);
   }
-  check_output_folder(arguments.folder);
+  check_output_folder(arguments.output);
 }
 
 /// A forest does not overwrite its trees.
@@ -111,7 +110,7 @@ void check_models(const Arguments& arguments, const Scene& scene) {
   const std::optional<fs::path>& single = arguments.forest.single;
   for (const SceneModel& model : scene.models) {
     if (model.file.empty()) continue;
-    check_name(model.file, "the model", arguments.folder);
+    check_name(model.file, "the model", arguments.output);
     if (single) check_file(*single, lower_extension(*single), arguments, model.file);
   }
 }
@@ -151,9 +150,9 @@ DeviceOptions device_of(const Arguments& arguments, const Ranks& ranks) {
   return device;
 }
 
-void warn_of_memory(const Arguments& arguments, Console& console) {
+void warn_of_memory(const Arguments& arguments, Context& context) {
   if (!arguments.given.contains("memory") || arguments.forest.merge != Merge::none) return;
-  console.warn("--memory bounds a canopy alone: --merge none takes what its models need");
+  context.warn({"--memory bounds a canopy alone: --merge none takes what its models need"});
 }
 
 std::string per_second(double leaf_vertices, double seconds) {
@@ -161,10 +160,6 @@ std::string per_second(double leaf_vertices, double seconds) {
   const std::string text =
       pace < 1e6 ? count(static_cast<std::uint64_t>(pace)) : number(pace / 1e6, 3) + " M";
   return text + " leaf vertices/s";
-}
-
-std::string counted(std::uint64_t things, const std::string& name) {
-  return count(things) + " " + name + (things == 1 ? "" : "s");
 }
 
 std::string tiles_in_words(const ForestSummary& summary) {
@@ -175,18 +170,15 @@ std::string tiles_in_words(const ForestSummary& summary) {
   return text;
 }
 
-void say_summary(Console& console, const ForestSummary& summary, const Arguments& arguments,
-                 std::uint64_t leaf_vertices, double elapsed) {
+void say_summary(Context& context, const ForestSummary& summary, const Arguments& arguments,
+                 std::uint64_t leaf_vertices) {
+  const double elapsed = context.elapsed();
   if (summary.was_finished) {
-    console.say("leafhull: " + arguments.folder.string() +
-                " holds this forest, finished: nothing was to do");
+    context.console.say("leafhull: " + arguments.output.string() +
+                        " holds this forest, finished: nothing was to do");
     return;
   }
-  for (const StageTime& time : summary.seconds) {
-    std::string stage = time.stage;
-    stage.resize(std::max<std::size_t>(stage.size(), 18), ' ');
-    console.detail("  " + stage + "  " + seconds(time.seconds));
-  }
+  context.say_stages(summary.seconds, "  ", 18);
   std::string text =
       "leafhull: " + counted(summary.trees, "tree") + " of " + counted(summary.models, "model");
   if (arguments.forest.merge == Merge::canopy) text += ", " + tiles_in_words(summary);
@@ -195,7 +187,7 @@ void say_summary(Console& console, const ForestSummary& summary, const Arguments
   if (leaf_vertices > 0) {
     text += ", " + per_second(static_cast<double>(leaf_vertices), elapsed);
   }
-  console.say(text + ": " + arguments.folder.string());
+  context.console.say(text + ": " + arguments.output.string());
 }
 
 void write_report(const ForestSummary& summary, const Arguments& arguments,
@@ -203,7 +195,7 @@ void write_report(const ForestSummary& summary, const Arguments& arguments,
   const std::optional<fs::path>& file = arguments.files.report;
   if (!file) return;
   const std::string report =
-      forest_report_json(summary, options, {arguments.tree.string(), arguments.command});
+      forest_report_json(summary, options, {arguments.operand.string(), arguments.command});
   if (*file == "-") {
     std::cout << report;
   } else {
@@ -232,28 +224,28 @@ void keep_freed_memory() {
 
 void make_forest(const Arguments& arguments, Ranks& ranks) {
   keep_freed_memory();
-  const auto start = Clock::now();
   const bool speaks = ranks.rank() == 0;
-  Console console(arguments.quiet || !speaks, arguments.verbose && speaks);
+  Context context(arguments, speaks);
+  Console& console = context.console;
   check_ranks_agree(arguments, ranks);
   check_ranks_share_all(arguments, ranks);
-  check_forest_arguments(arguments);
-  warn_of_memory(arguments, console);
   ForestOptions options = arguments.forest;
   options.shape = arguments.options;
+  check_forest_arguments(arguments, options);
+  warn_of_memory(arguments, context);
   // Names are typed relative to the working folder.
-  if (options.single) options.single = fs::proximate(*options.single, arguments.folder);
+  if (options.single) options.single = fs::proximate(*options.single, arguments.output);
   ForestWords words(ranks, arguments.quiet, how_to_go_on(options));
 
   const Options shape = resolve(arguments.options);
   const DeviceOptions shared = device_of(arguments, ranks);
   const ThreadLimit limit(shared.threads);
-  std::future<Device> opening = open_device(shared, shape.falloff);
+  context.open_device(shared, shape.falloff);
   console.progress("read", 0);
-  const Scene scene = read_scene(arguments.tree, shape.leaf_options(), shape.read_options());
-  for (const std::string& warning : scene.warnings) console.warn(warning);
+  const Scene scene = read_scene(arguments.operand, shape.leaf_options(), shape.read_options());
+  context.warn(scene.warnings);
   check_models(arguments, scene);
-  Device device = opening.get();
+  Device& device = context.device();
   console.detail("device      " + device.info().name);
   console.detail("scene       " + counted(scene.trees.size(), "tree") + " of " +
                  counted(scene.models.size(), "model"));
@@ -272,23 +264,22 @@ void make_forest(const Arguments& arguments, Ranks& ranks) {
     if (now.tiles == 0) return console.progress(now.stage, 0);
     if (now.stage == "tiles") words.set_tiles(now.tiles);
     console.progress(now.stage, now.tiles_done, now.tiles,
-                     per_second(static_cast<double>(leaf_vertices), since(start)) + ", " +
+                     per_second(static_cast<double>(leaf_vertices), context.elapsed()) + ", " +
                          bytes(now.resident_bytes));
   };
   const ForestSummary summary = [&] {
     try {
-      return run_forest(scene, options, device, ranks, arguments.folder, advance);
+      return run_forest(scene, options, device, ranks, arguments.output, advance);
     } catch (const std::exception&) {
       rethrow_with(words.still_to_do());
     }
   }();
   if (!speaks) return;
-  for (const std::string& warning : summary.warnings) console.warn(warning);
+  context.warn(summary.warnings);
   write_report(summary, arguments, options);
   // Of several ranks, and of a run that did all, the trees' own count.
   const bool did_all = summary.resumed == 0 && summary.remaining == 0;
-  say_summary(console, summary, arguments, did_all ? summary.leaf_vertices : leaf_vertices,
-              since(start));
+  say_summary(context, summary, arguments, did_all ? summary.leaf_vertices : leaf_vertices);
 }
 
 /// On several ranks one that fails ends the others, which do not know of it.
@@ -307,6 +298,11 @@ void run_forest_verb(const Arguments& arguments) {
 }
 
 }  // namespace
+
+std::vector<Flag> forest_flags() {
+  return all_of({flags_of(forest_table(), &Arguments::forest, "Forest"),
+                 flags_of(forest_table(), &Arguments::forest, "Work"), forest_output_flags()});
+}
 
 Verb forest_verb() {
   return {

@@ -16,14 +16,6 @@ namespace {
 constexpr std::size_t kIndent = 28;
 constexpr std::size_t kWidth = 98;
 
-std::string spelled(const Flag& flag) {
-  std::string text = flag.spelling;
-  if (const std::size_t comma = text.find(','); comma != std::string::npos) {
-    text.insert(comma + 1, " ");
-  }
-  return flag.value.empty() ? text : text + " " + std::string(flag.value);
-}
-
 std::string padded(std::string text, std::size_t width) {
   text.resize(std::max(text.size(), width), ' ');
   return text;
@@ -59,27 +51,24 @@ std::string entry(std::string_view term, std::string_view text) {
 }
 
 /// The meaning with unit, range and default; these on a line of their own where they do not fit.
-std::string help_line(const Flag& flag) {
-  const std::string by_default =
-      flag.default_value.empty() ? "" : "default " + std::string(flag.default_value);
-  const std::string_view facts[] = {flag.unit, flag.range, by_default};
-  const std::string details = joined(facts, "; ");
-  if (details.empty()) return entry(spelled(flag), flag.help);
-  const std::string whole = std::string(flag.help) + " (" + details + ")";
-  if (wrapped(whole).size() == 1) return entry(spelled(flag), whole);
-  std::vector<std::string> lines = wrapped(flag.help);
-  for (std::string& line : wrapped("(" + details + ")")) lines.push_back(std::move(line));
-  return entry(spelled(flag), lines);
+std::string help_line(const OptionLine& line) {
+  const std::string details = facts(line);
+  if (details.empty()) return entry(spelled(line), line.help);
+  const std::string whole = std::string(line.help) + " (" + details + ")";
+  if (wrapped(whole).size() == 1) return entry(spelled(line), whole);
+  std::vector<std::string> lines = wrapped(line.help);
+  for (std::string& more : wrapped("(" + details + ")")) lines.push_back(std::move(more));
+  return entry(spelled(line), lines);
 }
 
-std::string markdown_row(const Flag& flag) {
+std::string markdown_row(const OptionLine& line) {
   const auto cell = [](std::string_view text) {
     std::string escaped(" ");
     for (const char c : text) escaped += c == '|' ? std::string("\\|") : std::string(1, c);
     return escaped + " |";
   };
-  return "|" + cell("`" + spelled(flag) + "`") + cell(flag.help) + cell(flag.unit) +
-         cell(flag.range) + cell(flag.default_value) + "\n";
+  return "|" + cell("`" + spelled(line) + "`") + cell(line.help) + cell(line.unit) +
+         cell(line.range) + cell(line.default_value) + "\n";
 }
 
 std::string style_line(Style style) {
@@ -122,36 +111,57 @@ Verb table_verb(std::string_view name, std::string_view about, std::string_view 
 
 }  // namespace
 
+std::string spelled(const OptionLine& line) {
+  std::string text = line.spelling;
+  if (const std::size_t comma = text.find(','); comma != std::string::npos) {
+    text.insert(comma + 1, " ");
+  }
+  return line.value.empty() ? text : text + " " + line.value;
+}
+
+std::string facts(const OptionLine& line) {
+  const std::string by_default = line.default_value.empty() ? "" : "default " + line.default_value;
+  const std::string_view all[] = {line.unit, line.range, by_default};
+  return joined(all, "; ");
+}
+
+std::string_view command_about() {
+  return "leafhull turns the leaves of a tree model into its abstract shape: the closed surface\n"
+         "a painter would block in before drawing a single leaf.";
+}
+
+std::string_view exit_codes() {
+  return "0 done, 1 internal error, 2 usage, 3 input, 4 device, 5 output, 6 the shape is empty";
+}
+
 std::string command_help(std::span<const Verb> verbs) {
-  std::string page =
-      "leafhull turns the leaves of a tree model into its abstract shape: the closed surface\n"
-      "a painter would block in before drawing a single leaf.\n"
-      "\nUsage\n  leafhull VERB [options]\n\nVerbs\n";
+  std::string page(command_about());
+  page += "\n\nUsage\n  leafhull VERB [options]\n\nVerbs\n";
   for (const Verb& verb : verbs) {
     if (!verb.hidden) page += entry(verb.name, verb.summary);
   }
   page += "\nGeneral\n";
-  for (const Flag& flag : help_flags()) page += help_line(flag);
+  for (const Flag& flag : help_flags()) page += help_line(flag.line);
   return page +
          "\nFirst steps\n"
          "  leafhull inspect tree.glb                 what is in the file, and what to type next\n"
          "  leafhull extract tree.glb -o shape.glb    the shape, to open in Blender\n"
          "  leafhull extract --help                   every option, with unit, range and default\n"
-         "\nExit codes\n"
-         "  0 done, 1 internal error, 2 usage, 3 input, 4 device, 5 output, 6 the shape is empty\n";
+         "\nExit codes\n  " +
+         std::string(exit_codes()) + "\n";
 }
 
 std::string verb_help(const Verb& verb) {
   std::string page(verb.about);
   page.append("\n\nUsage\n  leafhull ").append(verb.name);
-  if (verb.takes_tree || verb.takes_trees) page.append(" ").append(verb.operand);
+  if (verb.takes_operand()) page.append(" ").append(verb.operand);
   page += " [options]\n";
-  if (verb.takes_tree || verb.takes_trees) page += "\n" + entry(verb.operand, verb.operand_help);
+  if (verb.takes_operand()) page += "\n" + entry(verb.operand, verb.operand_help);
   std::string_view group;
   for (const Flag& flag : verb.flags) {
     if (flag.hidden) continue;
-    if (flag.group != group) page += "\n" + std::string(group = flag.group) + "\n";
-    page += help_line(flag);
+    if (flag.line.group != group) page += "\n" + std::string(group = flag.line.group) + "\n";
+    page += help_line(flag.line);
   }
   if (verb.name == "extract") page += styles_and_presets();
   return page + "\nExamples\n" + std::string(verb.examples);
@@ -162,12 +172,12 @@ std::string markdown(std::span<const Flag> flags) {
   std::string_view group;
   for (const Flag& flag : flags) {
     if (flag.hidden) continue;
-    if (flag.group != group) {
-      group = flag.group;
+    if (flag.line.group != group) {
+      group = flag.line.group;
       page += (page.empty() ? "" : "\n") + ("**" + std::string(group) + "**\n\n") +
               "| Option | Meaning | Unit | Range | Default |\n|---|---|---|---|---|\n";
     }
-    page += markdown_row(flag);
+    page += markdown_row(flag.line);
   }
   return page;
 }

@@ -3,11 +3,19 @@
 
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "cli/verb.h"
 
 namespace leafhull::cli {
 
+/// "-o, --output FILE"
+std::string spelled(const OptionLine& line);
+/// Unit, range and default, as far as there are.
+std::string facts(const OptionLine& line);
+
+std::string_view command_about();  ///< what leafhull is for
+std::string_view exit_codes();
 std::string command_help(std::span<const Verb> verbs);
 std::string verb_help(const Verb& verb);
 

@@ -9,7 +9,7 @@
 #include <optional>
 #include <tuple>
 
-#include "cli/console.h"
+#include "cli/context.h"
 #include "cli/table.h"
 #include "cli/values.h"
 #include "cli/verb.h"
@@ -51,7 +51,7 @@ std::string text_of(const LeafColour& colour) {
 }
 
 std::vector<std::string> suggestions(const Arguments& arguments, const LeafChoice& choice) {
-  const std::string tree = quoted(arguments.tree.string());
+  const std::string tree = quoted(arguments.operand.string());
   if (!choice.any()) {
     const std::string inspect = "leafhull inspect " + tree + ' ';
     std::vector<std::string> lines;
@@ -69,7 +69,7 @@ std::vector<std::string> suggestions(const Arguments& arguments, const LeafChoic
     leaves += " --leaves-colour " + quoted(text_of(*colour));
   }
   const std::string extract = "leafhull extract " + tree + leaves;
-  const std::string stem = arguments.tree.stem().string();
+  const std::string stem = arguments.operand.stem().string();
   return {extract + " -o " + quoted(stem + "-shape.glb") + " --preset draft",
           extract + " -o " + quoted(stem + "-shape.glb") + " --preset fine",
           extract + " -o " + quoted(stem + "-thin.glb") + " --style thin"};
@@ -243,7 +243,7 @@ void print_json(const Arguments& arguments, const LeafChoice& choice,
                 const std::optional<LeafSet>& leaves, const std::vector<std::string>& commands) {
   Json candidates = Json::array();
   for (const LeafCandidate& candidate : choice.candidates) candidates.push_back(json(candidate));
-  const Json page = {{"input", arguments.tree.string()},
+  const Json page = {{"input", arguments.operand.string()},
                      {"candidates", candidates},
                      {"chosen", choice.told},
                      {"leaves", leaves ? json(*leaves) : Json()},
@@ -253,12 +253,10 @@ void print_json(const Arguments& arguments, const LeafChoice& choice,
 }
 
 void run_inspect(const Arguments& arguments) {
-  Console console(arguments.quiet, arguments.verbose);
+  Context context(arguments);
   const LeafOptions options = resolve(arguments.options).leaf_options();
-  console.progress("read", 0);
-  const TreeModel tree = read_tree(arguments.tree, arguments.options.read_options());
-  for (const std::string& warning : tree.warnings) console.warn(warning);
-  console.progress("leaves", 0);
+  const TreeModel tree = context.read(arguments.operand);
+  context.console.progress("leaves", 0);
   const LeafChoice choice = choose_leaves(tree, options);
   std::optional<LeafSet> leaves;
   std::optional<Error> failure;
@@ -269,9 +267,7 @@ void run_inspect(const Arguments& arguments) {
     failure = error;  // the list is printed all the same
   }
   clear_progress();
-  for (const std::string& warning : leaves ? leaves->warnings : choice.warnings) {
-    console.warn(warning);
-  }
+  context.warn(leaves ? leaves->warnings : choice.warnings);
 
   const std::vector<std::string> commands = suggestions(arguments, choice);
   if (arguments.json) {

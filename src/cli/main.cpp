@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <array>
 #include <exception>
 #include <iostream>
+#include <vector>
 
 #include "cli/console.h"
 #include "cli/help.h"
@@ -24,7 +24,7 @@ std::string with_guess(std::string_view word, std::span<const std::string_view> 
                                 const std::string& remedy) {
   std::vector<std::string_view> spellings;
   for (const Flag& flag : flags) {
-    spellings.push_back(std::string_view(flag.spelling).substr(flag.spelling.find("--")));
+    spellings.push_back(std::string_view(flag.line.spelling).substr(flag.line.spelling.find("--")));
   }
   const std::string option = word.substr(0, word.find('='));
   throw Error(ErrorCode::usage, "the option " + option + " is unknown",
@@ -60,18 +60,14 @@ CLI::App* add_verb(CLI::App& app, const Verb& verb, Arguments& arguments) {
   CLI::App* sub = app.add_subcommand(std::string(verb.name), std::string(verb.summary));
   sub->allow_extras();
   add_flags(*sub, verb.flags, arguments);
-  if (verb.takes_tree) sub->add_option("TREE", arguments.tree);
+  if (verb.takes_tree) sub->add_option("TREE", arguments.operand);
   if (verb.takes_trees) sub->add_option("TREE", arguments.trees);
   sub->formatter_fn([&verb](auto&&...) { return verb_help(verb); });
   return sub;
 }
 
 void run(const std::vector<std::string>& command) {
-  const std::array verbs = {extract_verb(),      inspect_verb(),      suggest_verb(),
-                            sweep_verb(),        study_verb(),        render_verb(),
-                            forest_verb(),       scatter_verb(),      devices_verb(),
-                            help_options_verb(), help_forests_verb(), help_pictures_verb(),
-                            help_styles_verb()};
+  const std::vector<Verb> verbs = all_verbs();
   const std::vector<Flag> flags = help_flags();
   Arguments arguments;
   arguments.command = command;
@@ -109,7 +105,7 @@ void run(const std::vector<std::string>& command) {
                 "Options follow the verb: leafhull " + std::string(verb->name) + " [options].");
   }
   refuse_extras(app.get_subcommand(std::string(verb->name))->remaining(), *verb);
-  if ((verb->takes_tree && arguments.tree.empty()) ||
+  if ((verb->takes_tree && arguments.operand.empty()) ||
       (verb->takes_trees && arguments.trees.empty())) {
     const std::string_view operand = verb->operand.substr(0, verb->operand.find("..."));
     throw Error(ErrorCode::usage, "no " + std::string(operand) + " is given",

@@ -4,14 +4,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <future>
 #include <memory>
 #include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "cli/console.h"
+#include "cli/context.h"
 #include "cli/flags.h"
 #include "cli/signals.h"
 #include "cli/values.h"
@@ -19,72 +18,23 @@
 #include "leafhull/error.h"
 #include "leafhull/output.h"
 #include "leafhull/tree.h"
-#include "text/file_name.h"
 
 namespace leafhull::cli {
 namespace {
 
 namespace fs = std::filesystem;
 
-bool is_field(const Arguments& arguments) { return lower_extension(arguments.tree) == ".vdb"; }
-
 Surfacing surfacing(const Arguments& arguments) {
-  return arguments.surfacing.value_or(Surfacing::direct);
-}
-
-/// A viewpoint by its name, else the camera in a file.
-std::variant<Viewpoint, View> camera_of(const std::string& text, const ReadOptions& reading) {
-  const auto valid = names(Viewpoint{});
-  const bool is_name = std::find(valid.begin(), valid.end(), text) != valid.end();
-  if (!is_name && looks_like_file(text)) return read_view(text, reading);
-  return static_cast<Viewpoint>(choice("--camera", text, valid));
-}
-
-/// A style by its name, else from a file.
-WatercolourStyle style_of(const std::string& text, std::optional<double> detail) {
-  const auto valid = watercolour_styles();
-  if (text.empty()) return read_watercolour_style(std::string(valid.front()), detail);
-  if (!looks_like_file(text)) choice("--watercolour-style", text, valid);
-  return read_watercolour_style(text, detail);
+  return arguments.render.surfacing.value_or(Surfacing::direct);
 }
 
 [[noreturn]] void refuse(const std::string& what, const std::string& remedy) {
   throw Error(ErrorCode::usage, what, remedy);
 }
 
-void check_figure17_flags(const Arguments& arguments) {
-  const std::vector<fs::path>& files = arguments.pictures.files;
-  if (arguments.pictures.frames > 0) {
-    refuse("--figure17 and --turntable contradict each other", "Give one of the two.");
-  }
-  if (arguments.drawing.look != Look::phong) {
-    refuse("--figure17 has looks of its own, beside --look " +
-               std::string(name(arguments.drawing.look)),
-           "Leave --look out.");
-  }
-  if (files.size() != 1 || lower_extension(files.front()) != ".png") {
-    refuse("--figure17 writes one .png file", "Name one, such as -o figure17.png.");
-  }
-  if (is_field(arguments) || arguments.is_shape.value_or(false)) {
-    refuse("--figure17 needs the tree itself", "Give a TREE.");
-  }
-}
-
-/// How many subjects stand in a picture.
-std::size_t subjects(const Arguments& arguments) { return arguments.beside ? 2 : 1; }
-
-void check_beside_flags(const Arguments& arguments) {
-  if (arguments.figure17) {
-    refuse("--beside and --figure17 contradict each other", "Give one of the two.");
-  }
-  if (is_field(arguments) || arguments.is_shape.value_or(false)) {
-    refuse("--beside needs the tree itself", "Give a TREE.");
-  }
-}
-
 void check_size(const Arguments& arguments, const PictureOptions& drawing,
                 const DeviceInfo* device = nullptr) {
-  if (arguments.figure17) {
+  if (arguments.render.figure17) {
     check_figure17(drawing, device);
   } else {
     check_picture(drawing, device);
@@ -97,25 +47,26 @@ std::vector<std::string> without_effect(const Arguments& arguments, bool is_tree
   const auto warn = [&](const std::string& option, const std::string& why) {
     warnings.push_back(option + " has no effect " + why);
   };
-  const Look look = arguments.drawing.look;
-  if (look != Look::watercolour && !arguments.figure17) {
+  const Look look = arguments.render.look;
+  if (look != Look::watercolour && !arguments.render.figure17) {
     const std::string why = "with --look " + std::string(name(look));
-    if (!arguments.watercolour_style.empty()) warn("--watercolour-style", why);
-    if (arguments.detail) warn("--detail", why);
-  } else if (!is_tree && arguments.detail) {
+    if (!arguments.render.style_name.empty()) warn("--watercolour-style", why);
+    if (arguments.render.detail) warn("--detail", why);
+  } else if (!is_tree && arguments.render.detail) {
     warn("--detail", "where there are no leaves");
   }
-  if (is_field(arguments) && arguments.is_shape) warn("--as", "on a density from a file");
+  if (is_field(arguments.operand) && arguments.render.drawn_as)
+    warn("--as", "on a density from a file");
   const bool is_meshed = surfacing(arguments) == Surfacing::mesh;
   for (const OptionRow& row : option_table()) {
     if (!arguments.given.contains(row.name)) continue;
-    const std::string option = spelling(row);
+    const std::string& option = row.spelling;
     const bool of_rows = row.name == "style" || row.name == "method";
     const bool of_mesh = row.name == "snap" || row.name == "mesher" || row.name == "adaptivity";
     if (is_tree) {
-      if (of_rows && arguments.figure17) warn(option, "on --figure17, whose rows set it");
+      if (of_rows && arguments.render.figure17) warn(option, "on --figure17, whose rows set it");
       if (of_mesh && !is_meshed) warn(option, "without --surface mesh");
-    } else if (!is_field(arguments)) {
+    } else if (!is_field(arguments.operand)) {
       warn(option, "on a shape that is drawn as it is");
     } else if (row.name != "threshold") {
       warn(option, "on a density from a file");
@@ -124,46 +75,28 @@ std::vector<std::string> without_effect(const Arguments& arguments, bool is_tree
   return warnings;
 }
 
-/// What the command line asks for, checked as far as no file need be read but the camera's and the
-/// style's.
-PictureOptions checked(const Arguments& arguments) {
-  (void)resolve(arguments.options);
-  if (arguments.figure17) check_figure17_flags(arguments);
-  if (arguments.beside) check_beside_flags(arguments);
-  check_pictures(arguments.pictures, arguments.tree, subjects(arguments));
-  PictureOptions drawing = arguments.drawing;
-  drawing.camera = camera_of(arguments.camera, arguments.options.read_options());
-  drawing.style = style_of(arguments.watercolour_style, arguments.detail);
-  check_size(arguments, drawing);
-  return drawing;
-}
-
 /// Reads and draws; what is asked of it is checked.
 class Run {
  public:
-  Run(const Arguments& arguments, const PictureOptions& drawing, Console& console)
-      : arguments_(arguments),
-        drawing_(drawing),
-        console_(console),
-        opening_(open_device(arguments.device, arguments.options.falloff)) {}
+  Run(const Arguments& arguments, const PictureOptions& drawing, Context& context)
+      : arguments_(arguments), drawing_(drawing), context_(context) {
+    context.open_device(arguments.options.falloff);
+  }
 
   void operator()() {
-    if (is_field(arguments_)) {
-      warn(without_effect(arguments_, false));
+    if (is_field(arguments_.operand)) {
+      context_.warn(without_effect(arguments_, false));
       Device& device = open();
       const std::optional<double> threshold = arguments_.options.threshold;
-      write(std::array{field_subject(arguments_.tree, threshold, surfacing(arguments_), device,
-                                     progress())},
+      write(std::array{field_subject(arguments_.operand, threshold, surfacing(arguments_), device,
+                                     context_.progress())},
             device);
       return;
     }
-    console_.progress("read", 0);
-    const auto model = std::make_shared<const TreeModel>(
-        read_tree(arguments_.tree, arguments_.options.read_options()));
-    warn(model->warnings);
-    const bool shape = arguments_.is_shape.value_or(arguments_.options.leaves.empty() &&
-                                                    leafhull::is_shape(*model));
-    if (shape) {
+    const auto model = std::make_shared<const TreeModel>(context_.read(arguments_.operand));
+    const std::optional<Drawn> asked = arguments_.render.drawn_as;
+    const bool seems_shape = arguments_.options.leaves.empty() && is_shape(*model);
+    if (asked ? *asked == Drawn::shape : seems_shape) {
       draw_shape(model);
     } else {
       draw_tree(model);
@@ -171,134 +104,117 @@ class Run {
   }
 
  private:
-  Progress progress() {
-    return [this](std::string_view stage, double done) { console_.progress(stage, done); };
-  }
-
-  void warn(const std::vector<std::string>& lines) {
-    for (const std::string& line : lines) console_.warn(line);
-  }
-
   Device& open() {
-    device_.emplace(opening_.get());
-    check_size(arguments_, drawing_, &device_->info());
-    console_.detail("device      " + device_->info().name);
-    return *device_;
+    Device& device = context_.device();
+    check_size(arguments_, drawing_, &device.info());
+    context_.console.detail("device      " + device.info().name);
+    return device;
   }
 
   void draw_shape(const std::shared_ptr<const TreeModel>& model) {
-    const std::string file = arguments_.tree.string();
-    if (arguments_.figure17 || arguments_.beside) {
-      refuse(std::string(arguments_.beside ? "--beside" : "--figure17") + " needs a tree, and " +
-                 file + " is an abstract shape",
+    const std::string file = arguments_.operand.string();
+    if (const bool beside = arguments_.render.beside; beside || arguments_.render.figure17) {
+      refuse(std::string(beside ? "--beside" : "--figure17") + " needs a tree, and " + file +
+                 " is an abstract shape",
              "Give a TREE.");
     }
-    if (arguments_.surfacing == Surfacing::direct) {
+    if (arguments_.render.surfacing == Surfacing::direct) {
       refuse("--surface direct needs a density, and " + file + " is a shape of polygons",
              "Give the tree, or a .vdb file from extract --save-field.");
     }
-    if (!arguments_.is_shape) {
-      console_.say("leafhull: " + file + " is drawn as an abstract shape (--as tree: as a tree)");
+    if (!arguments_.render.drawn_as) {
+      context_.console.say("leafhull: " + file +
+                           " is drawn as an abstract shape (--as tree: as a tree)");
     }
-    warn(without_effect(arguments_, false));
+    context_.warn(without_effect(arguments_, false));
     write(std::array{shape_subject(model)}, open());
   }
 
   void draw_tree(const std::shared_ptr<const TreeModel>& model) {
-    warn(without_effect(arguments_, true));
-    console_.progress("leaves", 0);
-    const LeafSet leaves = find_leaves(*model, arguments_.options.leaf_options());
-    warn(leaves.warnings);
+    context_.warn(without_effect(arguments_, true));
+    const LeafSet leaves = context_.find_leaves(*model, arguments_.options.leaf_options());
     Device& device = open();
-    if (arguments_.figure17) {
+    if (arguments_.render.figure17) {
       write_figure17(model, leaves, device);
       return;
     }
-    const Subject subject =
-        tree_subject(model, leaves, arguments_.options, surfacing(arguments_), device, progress());
-    warn(subject.report().warnings);
+    const Subject subject = tree_subject(model, leaves, arguments_.options, surfacing(arguments_),
+                                         device, context_.progress());
+    context_.warn(subject.report().warnings);
     std::vector<Subject> row{subject};
-    if (arguments_.beside) row.insert(row.begin(), drawn_subject(model, *leaves.choice, subject));
+    if (arguments_.render.beside) {
+      row.insert(row.begin(), drawn_subject(model, *leaves.choice, subject));
+    }
     write(row, device);
   }
 
   void write_figure17(const std::shared_ptr<const TreeModel>& model, const LeafSet& leaves,
                       Device& device) {
-    const fs::path& file = arguments_.pictures.files.front();
-    const Picture plate = figure17(model, leaves, arguments_.options, *arguments_.figure17,
-                                   surfacing(arguments_), drawing_, device, progress());
+    const fs::path& file = arguments_.render.files.front();
+    const Picture plate = figure17(model, leaves, arguments_.options, *arguments_.render.figure17,
+                                   surfacing(arguments_), drawing_, device, context_.progress());
     const std::vector<std::uint8_t> png = encode_png(plate);
     write_file(file, {reinterpret_cast<const char*>(png.data()), png.size()});
-    console_.say("leafhull: Figure 17 of " + arguments_.tree.filename().string() + " in " +
-                 seconds(elapsed()) + ": " + file.string());
+    context_.console.say("leafhull: Figure 17 of " + arguments_.operand.filename().string() +
+                         " in " + seconds(context_.elapsed()) + ": " + file.string());
   }
 
   /// The shape, the last of `row`, with what stands beside it.
   void write(std::span<const Subject> row, Device& device) {
     const Report& report = row.back().report();
     if (report.resolution > 0) {
-      console_.detail("surface     T = " + number(report.threshold, 4) + ", " +
-                      count(static_cast<std::uint64_t>(report.resolution)) + " voxels of " +
-                      number(report.voxel_size, 4));
+      context_.console.detail("surface     T = " + number(report.threshold, 4) + ", " +
+                              count(static_cast<std::uint64_t>(report.resolution)) + " voxels of " +
+                              number(report.voxel_size, 4));
     }
-    const int frames = arguments_.pictures.frames;
-    const PictureSummary summary = write_pictures(
-        row, drawing_, arguments_.pictures, device, [&](std::string_view stage, double done) {
-          if (frames == 0) {
-            console_.progress(stage, done);
-          } else {
-            // A frame counts once it is drawn; its share is not exact.
-            console_.progress(stage, static_cast<std::size_t>(std::floor(done * frames + 1e-6)),
-                              static_cast<std::size_t>(frames));
-          }
-        });
-    warn(summary.warnings);
-    say_times(report.seconds);
-    say_times(summary.seconds);
+    const int frames = arguments_.render.frames.value_or(0);
+    const PictureSummary summary =
+        write_pictures(row, drawing_, arguments_.render.picture_files(), device,
+                       [&](std::string_view stage, double done) {
+                         if (frames == 0) {
+                           context_.console.progress(stage, done);
+                         } else {
+                           // A frame counts once it is drawn; its share is not exact.
+                           context_.console.progress(
+                               stage, static_cast<std::size_t>(std::floor(done * frames + 1e-6)),
+                               static_cast<std::size_t>(frames));
+                         }
+                       });
+    context_.warn(summary.warnings);
+    context_.say_stages(report.seconds, "", 10);
+    context_.say_stages(summary.seconds, "", 10);
     say_files(summary);
   }
 
-  void say_times(const std::vector<StageTime>& times) {
-    for (const StageTime& time : times) {
-      if (time.stage == "total") continue;
-      std::string stage = time.stage;
-      stage.resize(std::max<std::size_t>(stage.size(), 10), ' ');
-      console_.detail(stage + "  " + seconds(time.seconds));
-    }
-  }
-
   void say_files(const PictureSummary& summary) {
-    const int frames = arguments_.pictures.frames;
+    const int frames = arguments_.render.frames.value_or(0);
     std::string where;
     for (const fs::path& file : summary.files) where += (where.empty() ? "" : ", ") + file.string();
-    console_.say("leafhull: " + std::to_string(drawing_.width) + "x" +
-                 std::to_string(drawing_.height) + " pixels" +
-                 (frames > 0 ? ", " + std::to_string(frames) + " frames" : "") + " in " +
-                 seconds(elapsed()) + ": " + where);
-  }
-
-  double elapsed() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    context_.console.say("leafhull: " + std::to_string(drawing_.width) + "x" +
+                         std::to_string(drawing_.height) + " pixels" +
+                         (frames > 0 ? ", " + std::to_string(frames) + " frames" : "") + " in " +
+                         seconds(context_.elapsed()) + ": " + where);
   }
 
   const Arguments& arguments_;
   const PictureOptions& drawing_;
-  Console& console_;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-  std::future<Device> opening_;
-  std::optional<Device> device_;
+  Context& context_;
 };
 
 void run_render(const Arguments& arguments) {
-  Console console(arguments.quiet, arguments.verbose);
-  const PictureOptions drawing = checked(arguments);
-  const bool frames = arguments.pictures.frames > 0;
-  catch_signals(frames && !arguments.quiet ? "leafhull: stopped; the frames so far are written\n"
-                                           : "");
-  Run(arguments, drawing, console)();
+  Context context(arguments);
+  (void)resolve(arguments.options);
+  const PictureOptions drawing =
+      picture_of(arguments.render, arguments.operand, arguments.options.read_options());
+  catch_signals(arguments.render.frames && !arguments.quiet
+                    ? "leafhull: stopped; the frames so far are written\n"
+                    : "");
+  Run(arguments, drawing, context)();
 }
 
 }  // namespace
+
+std::vector<Flag> render_flags() { return flags_of(render_table(), &Arguments::render); }
 
 Verb render_verb() {
   return {

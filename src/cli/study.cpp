@@ -2,16 +2,14 @@
 #include "leafhull/study.h"
 
 #include <algorithm>
-#include <chrono>
 #include <ctime>
 #include <filesystem>
 #include <fstream>
-#include <future>
 #include <iostream>
 #include <set>
 #include <thread>
 
-#include "cli/console.h"
+#include "cli/context.h"
 #include "cli/signals.h"
 #include "cli/table.h"
 #include "cli/values.h"
@@ -27,15 +25,15 @@ namespace {
 namespace fs = std::filesystem;
 
 std::vector<Flag> study_output_flags() {
-  return {{.spelling = "-o,--output",
-           .value = "FOLDER",
-           .group = "Output",
-           .help = "where report.html and study.json go; made where it is missing",
-           .set = [](Arguments& a, const std::string& text) { a.folder = text; }}};
+  static const ArgumentRow rows[] = {
+      ArgumentRow("Output", "output", &Arguments::output,
+                  "where report.html and study.json go; made where it is missing",
+                  {.value = "FOLDER", .letter = 'o'})};
+  return flags_of(rows);
 }
 
 void check_study_arguments(const Arguments& arguments) {
-  if (arguments.folder.empty()) {
+  if (arguments.output.empty()) {
     throw Error(ErrorCode::usage, "no folder for the report is given", "Give one: -o study/.");
   }
   const std::vector<fs::path>& trees = arguments.trees;
@@ -48,7 +46,7 @@ void check_study_arguments(const Arguments& arguments) {
       throw Error(ErrorCode::usage, tree->string() + " is given twice", "Give each tree once.");
     }
   }
-  check_output_folder(arguments.folder);
+  check_output_folder(arguments.output);
 }
 
 /// What the report calls the trees: their files' stems, numbered where two are the same.
@@ -68,7 +66,7 @@ std::vector<std::string> names_of(const std::vector<fs::path>& trees) {
 /// nobody's business.
 std::string without_folders(const Arguments& arguments) {
   std::vector<fs::path> paths = arguments.trees;
-  paths.push_back(arguments.folder);
+  paths.push_back(arguments.output);
   std::string command = "leafhull";
   for (std::string word : std::span(arguments.command).subspan(1)) {
     for (const fs::path& path : paths) {
@@ -107,13 +105,9 @@ std::string machine(int threads) {
   return name + ", " + std::to_string(used) + (used == 1 ? " thread" : " threads");
 }
 
-LeafSet leaves_of(const fs::path& file, const Options& options, Console& console) {
-  console.progress("read " + file.filename().string(), 0);
-  const TreeModel tree = read_tree(file, options.read_options());
-  for (const std::string& warning : tree.warnings) console.warn(warning);
-  LeafSet leaves = find_leaves(tree, options.leaf_options());
-  for (const std::string& warning : leaves.warnings) console.warn(warning);
-  return leaves;
+LeafSet leaves_of(const fs::path& file, const Options& options, Context& context) {
+  const TreeModel tree = context.read(file, "read " + file.filename().string());
+  return context.find_leaves(tree, options.leaf_options());
 }
 
 std::string_view in_words(Outcome outcome) {
@@ -140,17 +134,16 @@ void print_verdicts(const TreeStudy& tree) {
 }
 
 void run_study(const Arguments& arguments) {
-  Console console(arguments.quiet, arguments.verbose);
+  Context context(arguments);
   check_study_arguments(arguments);
   const Options options = resolve(arguments.options);
   catch_signals(arguments.quiet ? "" : "leafhull: stopped; a study is written at its end\n");
-  const auto began = std::chrono::steady_clock::now();
-  std::future<Device> opening = open_device(arguments.device, readings().front().falloff);
+  context.open_device(readings().front().falloff);
   std::vector<LeafSet> trees;
   for (const fs::path& tree : arguments.trees) {
-    trees.push_back(leaves_of(tree, options, console));
+    trees.push_back(leaves_of(tree, options, context));
   }
-  Device device = opening.get();
+  Device& device = context.device();
 
   Study study;
   const std::vector<std::string> names = names_of(arguments.trees);
@@ -158,8 +151,9 @@ void run_study(const Arguments& arguments) {
     const std::string tree =
         "tree " + std::to_string(i + 1) + " of " + std::to_string(trees.size()) + ": ";
     const auto progress = [&](std::string_view stage, double done) {
-      console.progress_of_all(tree + std::string(stage),
-                              (static_cast<double>(i) + done) / static_cast<double>(trees.size()));
+      context.console.progress_of_all(
+          tree + std::string(stage),
+          (static_cast<double>(i) + done) / static_cast<double>(trees.size()));
     };
     study.trees.push_back(study_tree(trees[i], names[i], device, progress));
   }
@@ -168,13 +162,13 @@ void run_study(const Arguments& arguments) {
   study.machine = machine(device.threads());
   study.date = today();
   study.command = without_folders(arguments);
-  study.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
-  console.progress("write", 0);
-  write_study(study, arguments.folder);
+  study.seconds = context.elapsed();
+  context.console.progress("write", 0);
+  write_study(study, arguments.output);
   clear_progress();
   for (const TreeStudy& tree : study.trees) print_verdicts(tree);
-  console.say("leafhull: " + (arguments.folder / "report.html").string() + " in " +
-              seconds(study.seconds));
+  context.console.say("leafhull: " + (arguments.output / "report.html").string() + " in " +
+                      seconds(study.seconds));
 }
 
 }  // namespace

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
 #include <cstdint>
-#include <future>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
-#include "cli/console.h"
+#include "cli/context.h"
 #include "cli/signals.h"
 #include "cli/table.h"
 #include "cli/values.h"
@@ -18,9 +17,9 @@ namespace leafhull::cli {
 namespace {
 
 std::string command_for(const Arguments& arguments, const Suggestion& choice) {
-  return "leafhull extract " + quoted(arguments.tree.string()) + arguments.typed + " --erosion " +
-         number(choice.erosion) + " --dilation " + number(choice.dilation) + " -o " +
-         quoted(arguments.tree.stem().string() + "-shape.glb");
+  return "leafhull extract " + quoted(arguments.operand.string()) + arguments.typed +
+         " --erosion " + number(choice.erosion) + " --dilation " + number(choice.dilation) +
+         " -o " + quoted(arguments.operand.stem().string() + "-shape.glb");
 }
 
 std::string volume(double value) {
@@ -81,31 +80,23 @@ void print_json(const Arguments& arguments, const std::vector<Suggestion>& choic
          {"command", command_for(arguments, choice)}});
   }
   const Json page = {
-      {"input", arguments.tree.string()}, {"picture", picture.string()}, {"suggestions", list}};
+      {"input", arguments.operand.string()}, {"picture", picture.string()}, {"suggestions", list}};
   std::cout << page.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
 }
 
 void run_suggest(const Arguments& arguments) {
-  Console console(arguments.quiet, arguments.verbose);
+  Context context(arguments);
   const Options options = arguments.options;
   const LeafOptions leaf_options = resolve(options).leaf_options();
-  std::filesystem::path picture = arguments.picture;
-  if (picture.empty()) picture = arguments.tree.stem().string() + "-suggest.png";
-  check_output(picture, ".png", arguments.tree);
+  std::filesystem::path picture = arguments.output;
+  if (picture.empty()) picture = arguments.operand.stem().string() + "-suggest.png";
+  check_output(picture, ".png", arguments.operand);
   catch_signals();
 
-  std::future<Device> opening = open_device(arguments.device, options.falloff);
-  console.progress("read", 0);
-  const LeafSet leaves = [&] {
-    const TreeModel tree = read_tree(arguments.tree, arguments.options.read_options());
-    for (const std::string& warning : tree.warnings) console.warn(warning);
-    return find_leaves(tree, leaf_options);
-  }();
-  for (const std::string& warning : leaves.warnings) console.warn(warning);
-  Device device = opening.get();
-  const Suggestions suggestions =
-      suggest(leaves, options, device, arguments.tree.filename().string(),
-              [&](std::string_view stage, double done) { console.progress(stage, done); });
+  context.open_device(options.falloff);
+  const LeafSet leaves = context.read_leaves(leaf_options);
+  const Suggestions suggestions = suggest(
+      leaves, options, context.device(), arguments.operand.filename().string(), context.progress());
   const std::vector<std::uint8_t> png = encode_png(suggestions.strip);
   write_file(picture, {reinterpret_cast<const char*>(png.data()), png.size()});
 
@@ -115,7 +106,14 @@ void run_suggest(const Arguments& arguments) {
   } else {
     print_table(arguments, suggestions.choices);
   }
-  console.say("leafhull: pictures of all nine: " + picture.string());
+  context.console.say("leafhull: pictures of all nine: " + picture.string());
+}
+
+std::vector<Flag> picture_flags() {
+  static const ArgumentRow rows[] = {
+      ArgumentRow("Output", "output", &Arguments::output, "the pictures, a row for each erosion",
+                  {.range = ".png", .default_value = "TREE-suggest.png", .letter = 'o'})};
+  return flags_of(rows);
 }
 
 }  // namespace
@@ -131,7 +129,7 @@ Verb suggest_verb() {
               "  leafhull suggest birch.glb --preset draft -o strip.png --json\n",
           .takes_tree = true,
           .flags = all_of({option_flags("Input"), option_flags("Leaves"),
-                           option_flags("Resolution"), suggest_flags(), device_flags(),
+                           option_flags("Resolution"), picture_flags(), device_flags(),
                            json_flags(), console_flags(), help_flags()}),
           .run = run_suggest};
 }

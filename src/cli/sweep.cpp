@@ -2,9 +2,9 @@
 #include "leafhull/sweep.h"
 
 #include <algorithm>
-#include <future>
+#include <utility>
 
-#include "cli/console.h"
+#include "cli/context.h"
 #include "cli/signals.h"
 #include "cli/values.h"
 #include "cli/verb.h"
@@ -16,16 +16,47 @@ namespace {
 
 constexpr std::size_t kMostUnasked = 10'000;
 
+/// The options, several values at once where a sweep takes them.
+std::vector<Flag> swept_flags() {
+  std::vector<Flag> flags = option_flags();
+  for (Flag& flag : flags) {
+    const OptionRow& row = option_row(flag.line.name);
+    if (!can_sweep(row)) continue;
+    flag.set = [&row](Arguments& arguments, const std::string& text) {
+      const SweptOption option = swept_option(row, text);
+      if (option.values.size() == 1 && option.values.front() == text) {
+        set_option(arguments.options, row, text);
+      } else {
+        arguments.swept.push_back(option);
+      }
+      arguments.given.insert(row.name);
+    };
+  }
+  return flags;
+}
+
+std::vector<Flag> sweep_flags() {
+  static const ArgumentRow rows[] = {
+      ArgumentRow("Output", "output", &Arguments::output,
+                  "keeps the sweep: tables, plots, pictures and what is done",
+                  {.range = "made where it is missing", .value = "FOLDER", .letter = 'o'}),
+      ArgumentRow("Output", "restart", &Arguments::restart,
+                  "starts over and replaces the sweep in the folder"),
+      ArgumentRow("Output", "yes", &Arguments::yes, "allows more than 10,000 combinations"),
+  };
+  return flags_of(rows);
+}
+
 void check_sweep_arguments(const Arguments& arguments) {
-  const std::string example =
-      "such as leafhull sweep " + quoted(arguments.tree.string()) + " --threshold 1.5:2.5:0.25 -o ";
+  const std::string example = "such as leafhull sweep " + quoted(arguments.operand.string()) +
+                              " --threshold 1.5:2.5:0.25 -o ";
   if (arguments.swept.empty()) {
     (void)resolve(arguments.options);
     throw Error(ErrorCode::usage, "no option is swept",
                 "Give one a range or a list, " + example +
-                    (arguments.folder.empty() ? "out" : quoted(arguments.folder)) + ".");
+                    (arguments.output.empty() ? "out" : quoted(arguments.output)) + ".");
   }
-  if (arguments.folder.empty()) {
+  if (arguments.output.empty()) {
     throw Error(ErrorCode::usage, "no folder is named",
                 "Name the one that keeps the sweep, " + example + "out.");
   }
@@ -75,39 +106,29 @@ SweepPlan plan_of(const Arguments& arguments) {
 /// The one falloff whose kernels are built while the tree is read.
 int first_falloff(const SweepPlan& plan) { return plan.combinations.front().falloff; }
 
-void say_summary(Console& console, const SweepSummary& summary, const Arguments& arguments,
-                 double elapsed) {
+void say_summary(Context& context, const SweepSummary& summary, const Arguments& arguments) {
   std::string text = "leafhull: " + count(summary.combinations) +
                      (summary.combinations == 1 ? " combination" : " combinations");
   if (summary.resumed > 0) text += ", " + count(summary.resumed) + " of them from before";
   if (summary.empty > 0) text += ", " + count(summary.empty) + " without a surface";
   if (summary.failed > 0) text += ", " + count(summary.failed) + " that failed (see sweep.csv)";
-  console.say(text + " in " + seconds(elapsed) + ": " + arguments.folder.string());
-  for (const StageTime& time : summary.seconds) {
-    std::string stage = time.stage;
-    stage.resize(std::max<std::size_t>(stage.size(), 18), ' ');
-    console.detail("  " + stage + "  " + seconds(time.seconds));
-  }
+  context.console.say(text + " in " + seconds(context.elapsed()) + ": " +
+                      arguments.output.string());
+  context.say_stages(summary.seconds, "  ", 18);
 }
 
 void run_sweep_verb(const Arguments& arguments) {
-  const auto start = std::chrono::steady_clock::now();
-  Console console(arguments.quiet, arguments.verbose);
+  Context context(arguments);
   check_sweep_arguments(arguments);
   const SweepPlan plan = plan_of(arguments);
-  const std::string folder = arguments.folder.string();
-  check_output_folder(arguments.folder);
+  const std::string folder = arguments.output.string();
+  check_output_folder(arguments.output);
   catch_signals();
 
-  std::future<Device> opening = open_device(arguments.device, first_falloff(plan));
-  console.progress("read", 0);
-  const LeafSet leaves = [&] {
-    const TreeModel tree = read_tree(arguments.tree, arguments.options.read_options());
-    for (const std::string& warning : tree.warnings) console.warn(warning);
-    return find_leaves(tree, plan.combinations.front().leaf_options());
-  }();
-  for (const std::string& warning : leaves.warnings) console.warn(warning);
-  Device device = opening.get();
+  context.open_device(first_falloff(plan));
+  const LeafSet leaves = context.read_leaves(plan.combinations.front().leaf_options());
+  Device& device = context.device();
+  Console& console = context.console;
   console.detail("device      " + device.info().name);
   console.detail("leaves      " + count(leaves.leaf_count) + " with " +
                  count(leaves.vertices.size()) + " vertices");
@@ -119,17 +140,16 @@ void run_sweep_verb(const Arguments& arguments) {
 
   bool begun = false;
   const SweepSummary summary = run_sweep(
-      leaves, plan, device, {arguments.folder, arguments.restart},
-      {arguments.tree.string(), arguments.command},
+      leaves, plan, device, {arguments.output, arguments.restart},
+      {arguments.operand.string(), arguments.command},
       [&](std::string_view stage, std::size_t done, std::size_t all) {
         if (!std::exchange(begun, true) && done > 0) {
           console.say("leafhull: resuming: " + count(done) + " of " + count(all) + " done");
         }
         console.progress(stage, done, all);
       });
-  for (const std::string& warning : summary.warnings) console.warn(warning);
-  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
-  say_summary(console, summary, arguments, elapsed.count());
+  context.warn(summary.warnings);
+  say_summary(context, summary, arguments);
 }
 
 }  // namespace

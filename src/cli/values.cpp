@@ -7,9 +7,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdio>
-#include <numeric>
 #include <optional>
-#include <type_traits>
 #include <utility>
 
 #include "leafhull/error.h"
@@ -26,98 +24,37 @@ std::optional<Number> parsed(std::string_view text) {
   return value;
 }
 
-[[noreturn]] void refuse(std::string_view flag, std::string_view text, const std::string& why,
-                         const std::string& remedy) {
-  throw Error(ErrorCode::usage, std::string(flag) + " '" + std::string(text) + "' " + why, remedy);
+[[noreturn]] void refuse(const Typed& typed, const std::string& why, const std::string& remedy) {
+  throw Error(ErrorCode::usage, typed.flag + " '" + typed.text + "' " + why, remedy);
 }
 
-double real_number(std::string_view flag, std::string_view text) {
+double real_number(const Typed& typed, std::string_view text) {
   const std::optional<double> value = parsed<double>(text);
-  if (!value) refuse(flag, text, "is not a number", "Give a number such as 1.5.");
+  if (!value) {
+    const std::string part(text);
+    refuse({typed.line, part, typed.flag}, "is not a number", "Give a number such as 1.5.");
+  }
   return *value;
 }
 
-void assign(bool& value, std::string_view, const std::string&) { value = !value; }
-
-void assign(double& value, std::string_view flag, const std::string& text) {
-  value = real_number(flag, text);
-}
-
-void assign(int& value, std::string_view flag, const std::string& text) {
-  const std::optional<int> whole = parsed<int>(text);
-  if (!whole) refuse(flag, text, "is not a whole number", "Give a number such as 2.");
-  value = *whole;
-}
-
-void assign(Style& value, std::string_view flag, const std::string& text) {
-  // The name that it had up to 0.1.
-  value = text == "luft-deussen" ? Style::paper_previous
-                                 : static_cast<Style>(choice(flag, text, names(value)));
-}
-
-template <class Enum>
-requires std::is_enum_v<Enum>
-void assign(Enum& value, std::string_view flag, const std::string& text) {
-  value = static_cast<Enum>(choice(flag, text, names(value)));
-}
-
-void assign(std::vector<std::string>& value, std::string_view, const std::string& text) {
-  value.push_back(text);
-}
-
-void assign(TextureEllipse& value, std::string_view flag, const std::string& text) {
-  std::array<double, 6> n;
-  std::size_t from = 0;
-  for (std::size_t i = 0; i < n.size(); ++i) {
-    const std::size_t comma = text.find(',', from);
-    if ((comma == std::string::npos) != (i + 1 == n.size())) {
-      refuse(flag, text, "is not six numbers",
-             "Give the centre and two half-axes as cu,cv,au,av,bu,bv.");
-    }
-    n[i] = real_number(flag, std::string_view(text).substr(from, comma - from));
-    from = comma + 1;
-  }
-  value = {{n[0], n[1]}, {n[2], n[3]}, {n[4], n[5]}};
-}
-
-void assign(Srgb& value, std::string_view flag, const std::string& text) {
-  constexpr std::string_view kDigits = "0123456789abcdefABCDEF";
-  if (text.size() != 7 || text[0] != '#' || text.find_first_not_of(kDigits, 1) != text.npos) {
-    refuse(flag, text, "is not a colour", "Give it as '#rrggbb'.");
-  }
-  for (std::size_t i = 0; i < value.size(); ++i) {
-    const std::string digits = text.substr(1 + 2 * i, 2);
-    value[i] = static_cast<std::uint8_t>(std::stoul(digits, nullptr, 16));
-  }
-}
-
-void assign(LeafColour& value, std::string_view flag, const std::string& text) {
-  const std::size_t comma = text.find(',');
-  assign(value.srgb, flag, text.substr(0, comma));
-  if (comma == text.npos) return;
-  value.tolerance = real_number(flag, std::string_view(text).substr(comma + 1));
-  if (!(value.tolerance > 0)) {
-    refuse(flag, text, "has a tolerance that is not positive", "Distances in Oklab are 0.02 to 1.");
-  }
-}
-
+/// A part of what was typed, with a name of its own for messages.
 template <class Value>
-void assign(std::optional<Value>& value, std::string_view flag, const std::string& text) {
-  assign(value.emplace(), flag, text);
+void parse_part(Value& value, const Typed& typed, const std::string& part, const char* name = "") {
+  parse(value, {typed.line, part, typed.flag + name, typed.in_range});
 }
 
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), 0);
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    std::size_t diagonal = std::exchange(row[0], i + 1);
-    for (std::size_t j = 0; j < b.size(); ++j) {
-      const std::size_t replaced = diagonal + (a[i] != b[j]);
-      diagonal = row[j + 1];
-      row[j + 1] = std::min({replaced, row[j] + 1, diagonal + 1});
-    }
+template <class Whole>
+void parse_whole(Whole& value, const Typed& typed) {
+  const std::optional<Whole> whole = parsed<Whole>(typed.text);
+  const auto& [low, high] = std::pair(typed.line.low, typed.line.high);
+  if (!typed.in_range) {
+    if (!whole) refuse(typed, "is not a whole number", "Give a number such as 2.");
+  } else if (!whole || static_cast<double>(*whole) < low || static_cast<double>(*whole) > high) {
+    refuse(typed, "is out of range",
+           "Give a whole number from " + std::to_string(std::llround(low)) + " to " +
+               std::to_string(std::llround(high)) + ".");
   }
-  return row.back();
+  value = *whole;
 }
 
 std::string print(const char* format, int precision, double value) {
@@ -128,45 +65,33 @@ std::string print(const char* format, int precision, double value) {
 
 }  // namespace
 
-void set_option(Options& options, const OptionRow& row, const std::string& text) {
-  const std::string flag = "--" + std::string(row.name);
-  if (!text.ends_with('%') || !takes_percent(row)) {
-    std::visit([&](auto member) { assign(options.*member, flag, text); }, row.member);
-    return;
-  }
-  const double percent = real_number(flag, std::string_view(text).substr(0, text.size() - 1));
-  const bool fraction = row.percent.empty();
-  const OptionRow& target = fraction ? row : option_row(row.percent);
-  options.*std::get<std::optional<double> Options::*>(target.member) =
-      fraction ? percent / 100 : percent;
+void parse(bool& value, const Typed&) { value = !value; }
+
+void parse(int& value, const Typed& typed) {
+  parse_whole(value, typed);
+  if (typed.in_range) check_value(typed.line, value);  // a multiple
 }
 
-int whole_number(std::string_view flag, const std::string& text, int low, int high) {
-  const std::optional<int> value = parsed<int>(text);
-  if (!value || *value < low || *value > high) {
-    refuse(flag, text, "is out of range",
-           "Give a whole number from " + std::to_string(low) + " to " + std::to_string(high) + ".");
-  }
-  return *value;
-}
+void parse(std::uint64_t& value, const Typed& typed) { parse_whole(value, typed); }
 
-double real_number(std::string_view flag, const std::string& text, double low, double high) {
-  const double value = real_number(flag, text);
+void parse(double& value, const Typed& typed) {
+  value = real_number(typed, typed.text);
+  if (!typed.in_range) return;
+  const auto [low, high] = std::pair(typed.line.low, typed.line.high);
   if (std::isnan(value) || value < low || value > high) {
-    refuse(flag, text, "is out of range",
-           std::string("Give a number from ") + number(low) + " to " + number(high) + ".");
+    refuse(typed, "is out of range",
+           "Give a number from " + number(low) + " to " + number(high) + ".");
   }
-  return value;
 }
 
-std::uint64_t byte_count(std::string_view flag, const std::string& text, std::uint64_t low) {
+void parse(ByteCount& value, const Typed& typed) {
   constexpr std::string_view kUnits = "KMGT";
   constexpr double kMost = 1LL << 60;
-  std::string_view digits = text;
+  std::string_view digits = typed.text;
   double unit = 1;
-  if (!text.empty()) {
+  if (!digits.empty()) {
     const std::size_t power =
-        kUnits.find(static_cast<char>(std::toupper(static_cast<unsigned char>(text.back()))));
+        kUnits.find(static_cast<char>(std::toupper(static_cast<unsigned char>(digits.back()))));
     if (power != std::string_view::npos) {
       unit = std::exp2(10 * static_cast<double>(power + 1));
       digits.remove_suffix(1);
@@ -174,42 +99,128 @@ std::uint64_t byte_count(std::string_view flag, const std::string& text, std::ui
   }
   const double size = parsed<double>(digits).value_or(-1) * unit;
   if (std::isnan(size) || size < 0 || size >= kMost) {
-    refuse(flag, text, "is not a size", "Give bytes, or a number with K, M, G or T, such as 4G.");
+    refuse(typed, "is not a size", "Give bytes, or a number with K, M, G or T, such as 4G.");
   }
-  const auto whole = static_cast<std::uint64_t>(size);
-  if (whole < low) refuse(flag, text, "is too little", "Give " + bytes(low) + " or more.");
-  return whole;
+  value.bytes = static_cast<std::uint64_t>(size);
+  if (size < typed.line.low) {
+    const auto least = static_cast<std::uint64_t>(typed.line.low);
+    refuse(typed, "is too little", "Give " + bytes(least) + " or more.");
+  }
 }
 
-std::size_t choice(std::string_view flag, std::string_view text,
-                   std::span<const std::string_view> valid) {
-  const auto found = std::find(valid.begin(), valid.end(), text);
-  if (found == valid.end()) {
-    const std::string_view near = nearest(text, valid);
-    const std::string guess = near.empty() ? "" : "Did you mean " + std::string(near) + "? ";
-    refuse(flag, text, "is unknown", guess + "Choose from: " + joined(valid, ", ") + ".");
+void parse(std::string& value, const Typed& typed) {
+  if (typed.line.value == "NAME" && !typed.line.choices.empty()) {
+    choice(typed.flag, typed.text, typed.line.choices);
   }
-  return static_cast<std::size_t>(found - valid.begin());
+  value = typed.text;
 }
 
-std::string_view nearest(std::string_view text, std::span<const std::string_view> valid) {
-  std::string_view best;
-  std::size_t best_distance = std::max<std::size_t>(2, text.size() / 3) + 1;
-  for (const std::string_view candidate : valid) {
-    const std::size_t distance = edit_distance(text, candidate);
-    if (distance < best_distance) best = candidate, best_distance = distance;
+void parse(std::filesystem::path& value, const Typed& typed) { value = typed.text; }
+
+void parse(Vec2d& value, const Typed& typed) {
+  const std::size_t cross = typed.text.find('x');
+  if (cross == std::string::npos) {
+    refuse(typed, "is not two numbers", "Give its sides along x and z, such as 200x100.");
   }
-  return best;
+  parse_part(value.x, typed, typed.text.substr(0, cross));
+  parse_part(value.y, typed, typed.text.substr(cross + 1));
 }
 
-std::string joined(std::span<const std::string_view> words, std::string_view separator) {
-  std::string text;
-  for (const std::string_view word : words) {
-    if (word.empty()) continue;
-    if (!text.empty()) text += separator;
-    text += word;
+void parse(Srgb& value, const Typed& typed) {
+  constexpr std::string_view kDigits = "0123456789abcdefABCDEF";
+  const std::string& text = typed.text;
+  if (text.size() != 7 || text[0] != '#' || text.find_first_not_of(kDigits, 1) != text.npos) {
+    refuse(typed, "is not a colour", "Give it as '#rrggbb'.");
   }
-  return text;
+  for (std::size_t i = 0; i < value.size(); ++i) {
+    const std::string digits = text.substr(1 + 2 * i, 2);
+    value[i] = static_cast<std::uint8_t>(std::stoul(digits, nullptr, 16));
+  }
+}
+
+void parse(LeafColour& value, const Typed& typed) {
+  const std::size_t comma = typed.text.find(',');
+  parse_part(value.srgb, typed, typed.text.substr(0, comma));
+  if (comma == std::string::npos) return;
+  value.tolerance = real_number(typed, std::string_view(typed.text).substr(comma + 1));
+  if (!(value.tolerance > 0)) {
+    refuse(typed, "has a tolerance that is not positive", "Distances in Oklab are 0.02 to 1.");
+  }
+}
+
+void parse(TextureEllipse& value, const Typed& typed) {
+  const std::string& text = typed.text;
+  std::array<double, 6> n;
+  std::size_t from = 0;
+  for (std::size_t i = 0; i < n.size(); ++i) {
+    const std::size_t comma = text.find(',', from);
+    if ((comma == std::string::npos) != (i + 1 == n.size())) {
+      refuse(typed, "is not six numbers",
+             "Give the centre and two half-axes as cu,cv,au,av,bu,bv.");
+    }
+    n[i] = real_number(typed, std::string_view(text).substr(from, comma - from));
+    from = comma + 1;
+  }
+  value = {{n[0], n[1]}, {n[2], n[3]}, {n[4], n[5]}};
+}
+
+void parse(TileRange& value, const Typed& typed) {
+  const std::string& text = typed.text;
+  const std::size_t slash = text.find('/');
+  if (slash == std::string::npos) {
+    refuse(typed, "is not I/N", "Give the part and how many there are, such as 1/4.");
+  }
+  parse_part(value.parts, typed, text.substr(slash + 1), ", N");
+  const std::string part = text.substr(0, slash), parts = std::to_string(value.parts);
+  if (part == "0") {
+    throw Error(ErrorCode::usage, typed.flag + " " + text + " begins at 0",
+                "Ranges count from 1: give 1/" + parts + " to " + parts + "/" + parts + ".");
+  }
+  OptionLine of_parts = typed.line;
+  of_parts.high = value.parts;
+  parse_part(value.part, {of_parts, text}, part, ", I");
+}
+
+void parse(Style& value, const Typed& typed) {
+  // The name that it had up to 0.1.
+  value = typed.text == "luft-deussen"
+              ? Style::paper_previous
+              : static_cast<Style>(choice(typed.flag, typed.text, names(value)));
+}
+
+void parse(Plate& value, const Typed& typed) {
+  value = typed.text.empty() ? Plate::own : Plate::paper;
+}
+
+void parse(int& width, int& height, const Typed& typed) {
+  const std::size_t cross = typed.text.find('x');
+  if (cross == std::string::npos) {
+    refuse(typed, "is not WIDTHxHEIGHT", "Give both in pixels, such as 1024x768.");
+  }
+  parse_part(width, typed, typed.text.substr(0, cross), ", width");
+  parse_part(height, typed, typed.text.substr(cross + 1), ", height");
+}
+
+void parse(double& low, double& high, const Typed& typed) {
+  const std::size_t colon = typed.text.find(':');
+  if (colon == std::string::npos) {
+    refuse(typed, "is not two numbers", "Give LOW:HIGH, such as 0.8:1.2, or 1:1.");
+  }
+  parse_part(low, typed, typed.text.substr(0, colon));
+  parse_part(high, typed, typed.text.substr(colon + 1));
+}
+
+void set_option(Options& options, const OptionRow& row, const std::string& text) {
+  if (!text.ends_with('%') || !takes_percent(row)) {
+    set_value(options, row, {.line = row, .text = text, .in_range = false});
+    return;
+  }
+  const double percent =
+      real_number({row, text}, std::string_view(text).substr(0, text.size() - 1));
+  const bool fraction = row.percent.empty();
+  const OptionRow& target = fraction ? row : option_row(row.percent);
+  options.*std::get<std::optional<double> Options::*>(target.member) =
+      fraction ? percent / 100 : percent;
 }
 
 std::string number(double value, int digits) { return print("%.*g", digits, value); }
@@ -228,6 +239,10 @@ std::string count(std::uint64_t value) {
     text.insert(static_cast<std::size_t>(at), 1, ',');
   }
   return text;
+}
+
+std::string counted(std::uint64_t things, const std::string& name) {
+  return count(things) + " " + name + (things == 1 ? "" : "s");
 }
 
 std::string quoted(const std::string& word) {

@@ -2,44 +2,98 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
+#include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <type_traits>
+#include <utility>
+#include <variant>
+#include <vector>
 
+#include "leafhull/forest.h"
 #include "leafhull/options.h"
+#include "leafhull/render.h"
+#include "text/choice.h"
 
 namespace leafhull::cli {
 
-/// Reads `text` into the member of `row`. Ranges are resolve's business.
-/// @throws Error usage: not a number, or not one of the names.
-void set_option(Options& options, const OptionRow& row, const std::string& text);
+/// What was typed as the value of an option.
+struct Typed {
+  const OptionLine& line;
+  const std::string& text;
+  std::string flag = "--" + std::string(line.name);
+  bool in_range = true;  ///< numbers are held against the line's; false: resolve() does it
+};
 
-/// @throws Error usage: `text` is no whole number from `low` to `high`.
-int whole_number(std::string_view flag, const std::string& text, int low, int high);
+// Each reads a value. @throws Error usage: the text is none, or one that is out of range.
 
-/// @throws Error usage: `text` is no number from `low` to `high`.
-double real_number(std::string_view flag, const std::string& text, double low, double high);
+void parse(bool& value, const Typed& typed);  ///< the other value
+void parse(int& value, const Typed& typed);
+void parse(double& value, const Typed& typed);
+void parse(std::uint64_t& value, const Typed& typed);
+/// 4G, 512M, 1.5g or a plain number; K, M, G and T count in powers of 1024.
+void parse(ByteCount& value, const Typed& typed);
+void parse(std::string& value, const Typed& typed);
+void parse(std::filesystem::path& value, const Typed& typed);
+void parse(Vec2d& value, const Typed& typed);
+void parse(Srgb& value, const Typed& typed);
+void parse(LeafColour& value, const Typed& typed);
+void parse(TextureEllipse& value, const Typed& typed);
+void parse(TileRange& value, const Typed& typed);
+void parse(Style& value, const Typed& typed);
+void parse(Plate& value, const Typed& typed);
 
-/// Bytes: 4G, 512M, 1.5g or a plain number; K, M, G and T count in powers of 1024.
-/// @throws Error usage: not such a size, or below `low`.
-std::uint64_t byte_count(std::string_view flag, const std::string& text, std::uint64_t low);
-
-/// The index of `text` among `valid`.
-/// @throws Error usage: it is none of them; the nearest is suggested.
-std::size_t choice(std::string_view flag, std::string_view text,
-                   std::span<const std::string_view> valid);
-
-/// The value of an enumeration that `text` names.
-/// @throws Error usage: it names none; the nearest is suggested.
 template <class Enum>
-Enum chosen(std::string_view flag, const std::string& text) {
-  return static_cast<Enum>(choice(flag, text, names(Enum{})));
+requires std::is_enum_v<Enum>
+void parse(Enum& value, const Typed& typed) {
+  value = static_cast<Enum>(choice(typed.flag, typed.text, names(value)));
 }
 
-/// The one of `valid` that `text` was probably meant to be; empty where none is near.
-std::string_view nearest(std::string_view text, std::span<const std::string_view> valid);
+template <class Value>
+void parse(std::vector<Value>& value, const Typed& typed) {
+  parse(value.emplace_back(), typed);
+}
 
-std::string joined(std::span<const std::string_view> words, std::string_view separator);
+template <class Value>
+void parse(std::optional<Value>& value, const Typed& typed) {
+  parse(value.emplace(), typed);
+}
+
+/// The sides of a picture.
+void parse(int& width, int& height, const Typed& typed);
+/// The ends of a range.
+void parse(double& low, double& high, const Typed& typed);
+
+template <class Struct, class Value>
+void assign(Struct& options, Value Struct::*part, const Typed& typed) {
+  parse(options.*part, typed);
+}
+
+template <class Struct, class Value>
+void assign(Struct& options, std::pair<Value Struct::*, Value Struct::*> parts,
+            const Typed& typed) {
+  parse(options.*parts.first, options.*parts.second, typed);
+}
+
+template <class Struct, class Inner, class Value>
+void assign(Struct& options, std::pair<std::optional<Inner> Struct::*, Value Inner::*> path,
+            const Typed& typed) {
+  std::optional<Inner>& inner = options.*path.first;
+  if (!inner) inner.emplace();
+  parse(*inner.*path.second, typed);
+}
+
+/// Reads a value into what the row is of. @throws Error usage, as parse().
+template <class Struct, class... Members>
+void set_value(Struct& options, const RowOf<Struct, Members...>& row, const Typed& typed) {
+  std::visit([&](auto part) { assign(options, part, typed); }, row.member);
+}
+
+/// Reads `text` into what the row is of, or a percentage into what it stands for. Ranges are
+/// resolve's business.
+/// @throws Error usage: not a number, or not one of the names.
+void set_option(Options& options, const OptionRow& row, const std::string& text);
 
 /// Quoted for a POSIX shell where it has to be.
 std::string quoted(const std::string& word);
@@ -48,5 +102,7 @@ std::string number(double value, int digits = 6);  ///< at most so many signific
 std::string count(std::uint64_t value);            ///< 1,234,567
 std::string seconds(double value);                 ///< 0.123 s
 std::string bytes(std::uint64_t value);            ///< 512 MiB, 1.5 GiB
+/// "1 tree", "2 trees"
+std::string counted(std::uint64_t things, const std::string& name);
 
 }  // namespace leafhull::cli

@@ -16,10 +16,16 @@ struct Verb {
   bool takes_trees = false;  ///< one or more
   std::string_view operand = "TREE", operand_help = "a .glb, .gltf, .fbx or .obj file",
                    operand_example = "tree.glb";
+  std::span<const std::string_view> operand_words = {};  ///< all that it may be; empty: a file
   bool hidden = false;
   std::vector<Flag> flags;
   void (*run)(const Arguments&) = nullptr;
+
+  bool takes_operand() const { return takes_tree || takes_trees; }
 };
+
+/// In the order in which they are listed.
+std::vector<Verb> all_verbs();
 
 Verb extract_verb();
 Verb inspect_verb();
@@ -30,9 +36,11 @@ Verb render_verb();
 Verb forest_verb();
 Verb scatter_verb();
 Verb devices_verb();
+Verb completion_verb();
 Verb help_options_verb();
 Verb help_forests_verb();
 Verb help_pictures_verb();
 Verb help_styles_verb();
+Verb help_manual_verb();
 
 }  // namespace leafhull::cli

@@ -21,6 +21,9 @@ constexpr const char* kInstallPocl =
     "driver of your GPU. If PoCL is installed, its cache folder may not be writable: set "
     "POCL_CACHE_DIR.";
 
+constexpr std::string_view kVariants[] = {"vector", "work-item"};
+constexpr int kMostThreads = 1024;
+
 struct Found {
   DeviceInfo info;
   cl::Device device;
@@ -162,6 +165,23 @@ std::string listing(const std::vector<Found>& devices) {
 
 }  // namespace
 
+std::span<const std::string_view> kernel_variants() { return kVariants; }
+
+std::span<const DeviceOptionRow> device_table() {
+  using Row = DeviceOptionRow;
+  static const Row rows[] = {
+      Row("Device", "device", &DeviceOptions::choice,
+          "the OpenCL device; leafhull devices lists them",
+          {.range = "part of a name, or an index", .default_value = "a GPU, else a CPU"}),
+      Row("Device", "variant", &DeviceOptions::variant,
+          "the density kernel; the result is the same within rounding",
+          {.default_value = "by device type", .choices = kVariants}),
+      Row("Device", "threads", &DeviceOptions::threads, {1, kMostThreads},
+          "bounds the threads of OpenCL on the CPU and of TBB", {.default_value = "all cores"}),
+  };
+  return rows;
+}
+
 std::vector<DeviceInfo> list_devices(const DeviceOptions& options) {
   bound_pocl_threads(options.threads);
   std::vector<Found> found = find_devices();
@@ -172,7 +192,8 @@ std::vector<DeviceInfo> list_devices(const DeviceOptions& options) {
 }
 
 Device::Device(const DeviceOptions& options) : engine_(std::make_unique<Engine>()) {
-  if (!options.variant.empty() && options.variant != "vector" && options.variant != "work-item") {
+  if (!options.variant.empty() &&
+      std::ranges::find(kernel_variants(), options.variant) == kernel_variants().end()) {
     throw Error(ErrorCode::usage, "there is no kernel variant '" + options.variant + "'",
                 "Use vector or work-item.");
   }

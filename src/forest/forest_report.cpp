@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <array>
+#include <string>
 #include <string_view>
 
 #include "forest/tile_record.h"
@@ -9,22 +9,22 @@
 #include "tiles/level.h"
 
 namespace leafhull {
+
+static nlohmann::ordered_json to_json_value(const TileRange& range) {
+  return {range.part, range.parts};
+}
+
 namespace {
 
-/// Options that no tile heeds.
-constexpr std::array<std::string_view, 2> kNotOfForests = {"mesher", "adaptivity"};
+using Json = nlohmann::ordered_json;
+
+/// Options that no tile heeds, and those of a run alone.
+constexpr std::string_view kNotToldOf[] = {"mesher", "adaptivity", "resume", "restart"};
 
 Json options_of(const ForestOptions& options) {
   Json object = options_object(resolved_shape(options));
-  for (const std::string_view key : kNotOfForests) object.erase(std::string(key));
-  object["merge"] = name(options.merge);
-  object["control_scope"] = name(options.control_scope);
-  object["levels"] = options.levels;
-  object["tile"] = options.tile ? Json(*options.tile) : Json();
-  object["memory_bytes"] = options.memory;
-  object["tile_range"] = options.range ? Json{options.range->part, options.range->parts} : Json();
-  object["finish"] = options.finish;
-  object["single"] = options.single ? Json(options.single->string()) : Json();
+  object.update(rows_object(forest_table(), options));
+  for (const std::string_view key : kNotToldOf) object.erase(std::string(key));
   return object;
 }
 

@@ -29,49 +29,6 @@
 namespace leafhull {
 namespace {
 
-constexpr int kMostLevels = 8;
-constexpr int kLargestTile = 512;
-
-void check(const ForestOptions& options) {
-  const auto refuse = [](const std::string& what, const std::string& remedy) {
-    throw Error(ErrorCode::usage, what, remedy);
-  };
-  if (options.levels < 1 || options.levels > kMostLevels) {
-    refuse("a forest cannot have " + std::to_string(options.levels) + " levels",
-           "Give --levels from 1 to " + std::to_string(kMostLevels) + ".");
-  }
-  if (const auto tile = options.tile;
-      tile && (*tile % kRootEdge != 0 || *tile < kRootEdge || *tile > kLargestTile)) {
-    refuse("a tile cannot have " + std::to_string(*tile) + " voxels along its edge",
-           "Give a multiple of 32 up to " + std::to_string(kLargestTile) + ".");
-  }
-  if (options.merge == Merge::none) {
-    if (options.control_scope == ControlScope::scene) {
-      refuse("--control-scope scene needs trees that share a density", "Add --merge canopy.");
-    }
-    if (options.levels > 1 || options.single || options.range || options.finish) {
-      refuse("--merge none makes no tiles",
-             "Leave out --levels, --single, --tile-range and --finish.");
-    }
-    return;
-  }
-  if (options.control_scope == ControlScope::scene &&
-      (options.shape.erosion || options.shape.dilation)) {
-    refuse("--erosion and --dilation are of each model, and --control-scope is scene",
-           "Leave out one of the two.");
-  }
-  if (options.shape.density == DensitySource::grid) {
-    refuse("--density grid is of a single tree", "Leave it out, or add --merge none.");
-  }
-  if (options.shape.dense || options.shape.adaptivity > 0) {
-    refuse("tiles have neither --dense nor --adaptivity", "Leave them out, or add --merge none.");
-  }
-  if (options.shape.hollows == Hollows::fill) {
-    refuse("a tile cannot tell whether a hollow is closed",
-           "Leave out --hollows fill, or add --merge none.");
-  }
-}
-
 /// visit(name, number) for all that control over the scene has found for a level.
 template <class Level, class Visit>
 void for_each_found(Level& level, const Visit& visit) {
@@ -194,7 +151,7 @@ class Run {
     }
     watch_.start("plan");
     tell("plan");
-    forest_.edge = tile_edge(forest_.levels, options_.tile, options_.memory, folder_);
+    forest_.edge = tile_edge(forest_.levels, options_.tile, options_.memory.bytes, folder_);
     for (const ForestLevel& level : forest_.levels) {
       forest_.plans.emplace_back(level, forest_.edge);
     }
@@ -421,7 +378,7 @@ class Run {
 ForestSummary run_forest(const Scene& scene, const ForestOptions& options, Device& device,
                          Ranks& ranks, const std::filesystem::path& folder,
                          const ForestProgressVisitor& progress) {
-  check(options);
+  check_forest(options);
   check_output_folder(folder);
   const ThreadLimit limit(device.threads());
   const bool is_new = !std::filesystem::exists(folder);

@@ -195,6 +195,22 @@ void write_outputs(const OutputFiles& files, const Shape& shape, const RunDescri
   transaction.commit();
 }
 
+std::span<const OutputOptionRow> output_table() {
+  using Row = OutputOptionRow;
+  static const Row rows[] = {
+      Row("Output", "output", &OutputFiles::shapes,
+          "the shape, in the format of the extension; repeatable",
+          {.range = ".glb .gltf .obj .ply .stl .vdb", .letter = 'o'}),
+      Row("Output", "save-kernels", &OutputFiles::kernels,
+          "a point per kernel with its axes, radii and density", {.range = ".ply"}),
+      Row("Output", "save-field", &OutputFiles::field, "the sampled density as an OpenVDB grid",
+          {.range = ".vdb"}),
+      Row("Output", "report", &OutputFiles::report, "parameters, counts, metrics and times",
+          {.range = ".json, or - for standard output"}),
+  };
+  return rows;
+}
+
 void check_output(const fs::path& file, std::string_view extension, const fs::path& input) {
   check_extension(file, "the result", extension);
   refuse_input(file, resolve_destination(file), input);

@@ -6,12 +6,9 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <type_traits>
-#include <variant>
 #include <vector>
 
 #include "colour/colour.h"
-#include "leafhull/options.h"
 #include "leafhull/output.h"
 #include "leafhull/version.h"
 
@@ -19,38 +16,6 @@ namespace leafhull {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-std::string to_key(std::string_view name) {
-  std::string key(name);
-  std::ranges::replace_if(
-      key, [](char character) { return character == '-' || character == ' '; }, '_');
-  return key;
-}
-
-Json to_json_value(const TextureEllipse& ellipse) {
-  return {ellipse.centre.x, ellipse.centre.y, ellipse.a.x, ellipse.a.y, ellipse.b.x, ellipse.b.y};
-}
-
-Json to_json_value(const Srgb& colour) { return hex_of(colour); }
-
-Json to_json_value(const LeafColour& colour) {
-  const std::string text = hex_of(colour.srgb);
-  return colour.tolerance > 0 ? Json{text, colour.tolerance} : Json(text);
-}
-
-template <class Value>
-Json to_json_value(const Value& value) {
-  if constexpr (std::is_enum_v<Value>) {
-    return name(value);
-  } else {
-    return value;
-  }
-}
-
-template <class Value>
-Json to_json_value(const std::optional<Value>& value) {
-  return value ? to_json_value(*value) : Json();
-}
 
 /// The options, the ones that an extraction derives as it came to use them.
 Json parameters(const Report& report) {
@@ -103,14 +68,25 @@ Json metrics(const Report& report) {
 
 }  // namespace
 
-Json options_object(const Options& options) {
-  Json object;
-  for (const OptionRow& row : option_table()) {
-    object[to_key(row.name)] =
-        std::visit([&](auto member) { return to_json_value(options.*member); }, row.member);
-  }
-  return object;
+Json to_json_value(const TextureEllipse& ellipse) {
+  return {ellipse.centre.x, ellipse.centre.y, ellipse.a.x, ellipse.a.y, ellipse.b.x, ellipse.b.y};
 }
+
+Json to_json_value(const Srgb& colour) { return hex_of(colour); }
+
+Json to_json_value(const LeafColour& colour) {
+  const std::string text = hex_of(colour.srgb);
+  return colour.tolerance > 0 ? Json{text, colour.tolerance} : Json(text);
+}
+
+std::string to_key(std::string_view name) {
+  std::string key(name);
+  std::ranges::replace_if(
+      key, [](char character) { return character == '-' || character == ' '; }, '_');
+  return key;
+}
+
+Json options_object(const Options& options) { return rows_object(option_table(), options); }
 
 Json seconds_object(const std::vector<StageTime>& times) {
   Json seconds = Json::object();

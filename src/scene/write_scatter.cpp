@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMostTrees = 1'000'000;
+constexpr double kMostTrees = 1e6, kMostSeed = 2'147'483'647, kWidest = 1e9;
 constexpr double kMostAspect = 1e6;
 
 void require(bool holds, const std::string& what, const char* remedy) {
@@ -30,9 +30,6 @@ bool is_positive(double value) { return value > 0 && std::isfinite(value); }
 
 void check(const ScatterOptions& options) {
   require(!options.trees.empty(), "no tree is to be scattered", "Name one tree file or more.");
-  require(options.count >= 1 && options.count <= kMostTrees,
-          "--count " + std::to_string(options.count) + " is out of range",
-          "Give the number of trees, from 1 to 1000000.");
   if (options.area) {
     const auto [x, y] = *options.area;
     require(is_positive(x) && is_positive(y), "--area has a side that is not a positive number",
@@ -45,8 +42,13 @@ void check(const ScatterOptions& options) {
   require(is_positive(options.scale_low) && options.scale_low <= options.scale_high &&
               std::isfinite(options.scale_high),
           "--scale is not a range of positive numbers", "Give LOW:HIGH, such as 0.8:1.2.");
-  require(!options.ground || std::isfinite(options.ground->height), "--height is not a number",
-          "Give the height of white above black.");
+  if (options.ground) {
+    require(!options.ground->picture.empty(), "--height is given without a height map",
+            "Name one with --height-map.");
+    require(std::isfinite(options.ground->height), "--height is not a number",
+            "Give the height of white above black.");
+  }
+  check_rows(scatter_table(), options);
 }
 
 /// Of the leaves, along x and z, in the mean of all trees.
@@ -106,6 +108,31 @@ void append(std::string& text, double value) {
 }
 
 }  // namespace
+
+std::span<const ScatterOptionRow> scatter_table() {
+  using Row = ScatterOptionRow;
+  constexpr auto kGround = &ScatterOptions::ground;
+  static const Row rows[] = {
+      Row("Trees", "count", &ScatterOptions::count, {1, kMostTrees}, "number of trees",
+          {.default_value = "none"}),
+      Row("Trees", "seed", &ScatterOptions::seed, {0, kMostSeed}, "random seed"),
+      Row("Trees", "scale", std::pair(&ScatterOptions::scale_low, &ScatterOptions::scale_high),
+          {0, kWidest}, "range of sizes, drawn evenly",
+          {.range = "> 0", .default_value = "0.8:1.2", .value = "LOW:HIGH"}),
+      Row("Ground", "spacing", &ScatterOptions::spacing, {0, kWidest},
+          "least distance between trees", {.unit = "crown widths", .range = "> 0"}),
+      Row("Ground", "area", &ScatterOptions::area, {0, kWidest},
+          "sides of the rectangle along x and z, about the origin",
+          {.unit = "model units", .range = "> 0 each", .default_value = "as --spacing asks"}),
+      Row("Ground", "height-map", std::pair(kGround, &HeightMap::picture),
+          "the ground as seen from above, white the highest: +x right, +z down",
+          {.range = ".png, grey, 8 or 16 bits", .default_value = "flat", .value = "FILE"}),
+      Row("Ground", "height", std::pair(kGround, &HeightMap::height), {-kWidest, kWidest},
+          "height of white above black in the height map",
+          {.unit = "model units", .default_value = "10", .value = "X"}),
+  };
+  return rows;
+}
 
 void write_scatter(const ScatterOptions& options, const fs::path& file) {
   check(options);

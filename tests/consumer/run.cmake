@@ -13,3 +13,11 @@ run(${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR}/../../examples/extract -B ${WO
 run(${CMAKE_COMMAND} --build ${WORK_DIR}/build)
 run(${WORK_DIR}/build/extract ${TREE} ${WORK_DIR}/shape.glb)
 run(${WORK_DIR}/prefix/bin/leafhull --version)
+if(EXISTS ${BUILD_DIR}/printed)  # a build with sanitizers has none
+  foreach(file man/man1/leafhull.1 bash-completion/completions/leafhull
+          zsh/site-functions/_leafhull fish/vendor_completions.d/leafhull.fish)
+    if(NOT EXISTS ${WORK_DIR}/prefix/share/${file})
+      message(FATAL_ERROR "share/${file} is not installed")
+    endif()
+  endforeach()
+endif()

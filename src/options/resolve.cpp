@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "leafhull/options.h"
-
-#include <array>
-#include <charconv>
 #include <cmath>
-#include <type_traits>
 
 #include "leafhull/error.h"
+#include "leafhull/options.h"
+#include "options/messages.h"
 
 namespace leafhull {
 namespace {
@@ -69,100 +66,37 @@ constexpr StyleValues kStylesAtVertices[] = {
 };
 static_assert(std::size(kStyles) == std::size(kStyleNames));
 
-std::string text(double value) {
-  std::array<char, 32> buffer;
-  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;
-  return {buffer.data(), end};
-}
-
-std::string flag(const OptionRow& row) { return "--" + std::string(row.name); }
-
-[[noreturn]] void refuse(const std::string& message, std::string remedy) {
-  throw Error(ErrorCode::usage, message, std::move(remedy));
-}
-
-void check(const OptionRow& row, double value) {
-  const bool inside = std::isfinite(value) &&
-                      (row.high_open ? value < row.high : value <= row.high) &&
-                      (row.low_open ? value > row.low : value >= row.low);
-  if (inside) return;
-  const std::string what = flag(row) + " " + text(value);
-  if (!std::isfinite(value)) refuse(what + " is not a finite number", "Give a plain number.");
-  refuse(what + " is out of range", "Its range is " + std::string(row.range) + ".");
-}
-
-void check(const OptionRow& row, int value) { check(row, static_cast<double>(value)); }
-
-void check(const OptionRow& row, const std::vector<std::string>& globs) {
-  for (const std::string& glob : globs) {
-    if (glob.empty()) refuse(flag(row) + " is empty", "Give a name or a pattern such as '*leaf*'.");
-  }
-}
-
-void check(const OptionRow& row, const TextureEllipse& ellipse) {
-  const auto [centre, a, b] = ellipse;
-  for (const double value : {centre.x, centre.y, a.x, a.y, b.x, b.y}) {
-    if (!std::isfinite(value)) refuse(flag(row) + " is not finite", "Give six plain numbers.");
-  }
-  if (a.x * b.y == a.y * b.x) {
-    refuse(flag(row) + " has no area", "Give two half-axes that are not parallel.");
-  }
-}
-
-void check(const OptionRow& row, const LeafColour& colour) {
-  if (!(colour.tolerance >= 0) || !std::isfinite(colour.tolerance)) {
-    refuse(flag(row) + " has a tolerance that is negative", "Distances in Oklab are 0.02 to 1.");
-  }
-}
-
-template <class Enum>
-requires std::is_enum_v<Enum>
-void check(const OptionRow& row, Enum value) {
-  if (static_cast<std::size_t>(value) >= names(value).size()) {
-    refuse(flag(row) + " holds no value of its kind",
-           "Give one of " + std::string(row.range) + ".");
-  }
-}
-
-void check(const OptionRow&, const Srgb&) {}
-void check(const OptionRow&, bool) {}
-
-template <class Value>
-void check(const OptionRow& row, const std::optional<Value>& value) {
-  if (value) check(row, *value);
-}
-
 void check_contradictions(const Options& options) {
   const int thresholds = options.threshold.has_value() + options.threshold_percent.has_value() +
                          options.coverage.has_value() + options.erosion.has_value();
   if (thresholds > 1) {
-    refuse("--threshold X, --threshold X%, --coverage and --erosion contradict each other",
-           "Give one of the four.");
+    refuse_option("--threshold X, --threshold X%, --coverage and --erosion contradict each other",
+                  "Give one of the four.");
   }
   if (options.dilation && (options.threshold || options.threshold_percent)) {
-    refuse("--dilation and --threshold contradict each other",
-           "Give --erosion or --coverage in place of --threshold.");
+    refuse_option("--dilation and --threshold contradict each other",
+                  "Give --erosion or --coverage in place of --threshold.");
   }
   if (options.dilation && options.radius_max) {
-    refuse("--dilation and --radius-max contradict each other",
-           "Give one of the two: a dilation finds R_max.");
+    refuse_option("--dilation and --radius-max contradict each other",
+                  "Give one of the two: a dilation finds R_max.");
   }
   // Resolved options hold a preset beside the resolution it stands for.
   const bool same = options.preset && options.resolution == resolution_of(*options.preset);
   const int sizes =
       (options.preset && !same) + options.resolution.has_value() + options.voxel_size.has_value();
   if (sizes > 1) {
-    refuse("--preset, --resolution and --voxel-size contradict each other",
-           "Give one of the three.");
+    refuse_option("--preset, --resolution and --voxel-size contradict each other",
+                  "Give one of the three.");
   }
   if (options.adaptivity > 0 && options.mesher != Mesher::vdb) {
-    refuse("--adaptivity " + text(options.adaptivity) + " is not for --mesher " +
-               std::string(name(options.mesher)),
-           "Give --mesher vdb or leave out one of the two.");
+    refuse_option("--adaptivity " + number_text(options.adaptivity) + " is not for --mesher " +
+                      std::string(name(options.mesher)),
+                  "Give --mesher vdb or leave out one of the two.");
   }
   const auto once = [](const auto& value, const auto& percent, const std::string& flag) {
     if (value && percent) {
-      refuse(flag + " X and " + flag + " X% contradict each other", "Give one of the two.");
+      refuse_option(flag + " X and " + flag + " X% contradict each other", "Give one of the two.");
     }
   };
   once(options.band_low, options.band_low_percent, "--band-low");
@@ -173,9 +107,9 @@ void check_contradictions(const Options& options) {
 void check_band(const Options& options) {
   const auto upright = [](const auto& low, const auto& high, const std::string& unit) {
     if (!low || !high || *low <= *high) return;
-    const std::string least = text(*low) + unit;
-    refuse("--band-high " + text(*high) + unit + " is below --band-low " + least,
-           "Give a --band-high of at least " + least + ".");
+    const std::string least = number_text(*low) + unit;
+    refuse_option("--band-high " + number_text(*high) + unit + " is below --band-low " + least,
+                  "Give a --band-high of at least " + least + ".");
   };
   upright(options.band_low, options.band_high, "");
   upright(options.band_low_percent, options.band_high_percent, "%");
@@ -212,6 +146,28 @@ std::span<const std::string_view> names(Preset) { return kPresetNames; }
 
 int resolution_of(Preset preset) { return kPresetResolutions[static_cast<std::size_t>(preset)]; }
 
+void describe(OptionLine& line, const TextureEllipse&) { line.value = "cu,cv,au,av,bu,bv"; }
+void describe(OptionLine& line, const LeafColour&) { line.value = "COLOUR"; }
+void describe(OptionLine& line, const Srgb&) { line.value = "COLOUR"; }
+
+void check_value(const OptionLine& line, const TextureEllipse& ellipse) {
+  const auto [centre, a, b] = ellipse;
+  for (const double value : {centre.x, centre.y, a.x, a.y, b.x, b.y}) {
+    if (!std::isfinite(value))
+      refuse_option(line.spelling + " is not finite", "Give six plain numbers.");
+  }
+  if (a.x * b.y == a.y * b.x) {
+    refuse_option(line.spelling + " has no area", "Give two half-axes that are not parallel.");
+  }
+}
+
+void check_value(const OptionLine& line, const LeafColour& colour) {
+  if (!(colour.tolerance >= 0) || !std::isfinite(colour.tolerance)) {
+    refuse_option(line.spelling + " has a tolerance that is negative",
+                  "Distances in Oklab are 0.02 to 1.");
+  }
+}
+
 double radius_max_in_model_units(const LeafSet& leaves, const Options& resolved) {
   const double radius_max = resolved.radius_max.value_or(values_of(resolved).radius_max);
   switch (resolved.radius_unit) {
@@ -226,9 +182,7 @@ double radius_max_in_model_units(const LeafSet& leaves, const Options& resolved)
 }
 
 Options resolve(Options options) {
-  for (const OptionRow& row : option_table()) {
-    std::visit([&](auto member) { check(row, options.*member); }, row.member);
-  }
+  check_rows(option_table(), options);
   check_contradictions(options);
 
   const StyleValues& style = values_of(options);
@@ -250,9 +204,9 @@ Options resolve(Options options) {
     options.threshold = style.threshold;
     options.coverage = style.coverage;
     if (options.dilation && options.threshold) {
-      refuse("--style " + std::string(name(options.style)) +
-                 " has a threshold of its own, which contradicts --dilation",
-             "Add --erosion or --coverage.");
+      refuse_option("--style " + std::string(name(options.style)) +
+                        " has a threshold of its own, which contradicts --dilation",
+                    "Add --erosion or --coverage.");
     }
   }
   if (!options.resolution && !options.voxel_size) {

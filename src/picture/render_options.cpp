@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+// What `leafhull render` asks for: its rows, and which options contradict each other.
+#include <algorithm>
+#include <string>
+
+#include "leafhull/error.h"
+#include "leafhull/render.h"
+#include "text/choice.h"
+#include "text/file_name.h"
+
+namespace leafhull {
+namespace {
+
+constexpr int kMostFrames = 36000;
+
+std::string_view listed_styles() {
+  static const std::string text = joined(watercolour_styles(), ", ") + ", or a .json file";
+  return text;
+}
+
+std::string_view listed_cameras() {
+  static const std::string text =
+      joined(names(Viewpoint{}), ", ") + ", or a .json, .glb or .gltf file";
+  return text;
+}
+
+/// A viewpoint by its name, else the camera in a file.
+std::variant<Viewpoint, View> camera_of(const std::string& text, const ReadOptions& reading) {
+  const auto valid = names(Viewpoint{});
+  const bool is_name = std::ranges::find(valid, text) != valid.end();
+  if (!is_name && looks_like_file(text)) return read_view(text, reading);
+  return static_cast<Viewpoint>(choice("--camera", text, valid));
+}
+
+/// A style by its name, else from a file.
+WatercolourStyle style_of(const std::string& text, std::optional<double> detail) {
+  const auto valid = watercolour_styles();
+  if (text.empty()) return read_watercolour_style(std::string(valid.front()), detail);
+  if (!looks_like_file(text)) choice("--watercolour-style", text, valid);
+  return read_watercolour_style(text, detail);
+}
+
+void check_plate(const RenderOptions& options, const std::filesystem::path& subject) {
+  const auto refuse = [](const std::string& what, const std::string& remedy) {
+    throw Error(ErrorCode::usage, what, remedy);
+  };
+  if (options.frames) {
+    refuse("--figure17 and --turntable contradict each other", "Give one of the two.");
+  }
+  if (options.look != Look::phong) {
+    refuse("--figure17 has looks of its own, beside --look " + std::string(name(options.look)),
+           "Leave --look out.");
+  }
+  if (options.files.size() != 1 || lower_extension(options.files.front()) != ".png") {
+    refuse("--figure17 writes one .png file", "Name one, such as -o figure17.png.");
+  }
+  if (is_field(subject) || options.drawn_as == Drawn::shape) {
+    refuse("--figure17 needs the tree itself", "Give a TREE.");
+  }
+}
+
+void check_beside(const RenderOptions& options, const std::filesystem::path& subject) {
+  if (options.figure17) {
+    throw Error(ErrorCode::usage, "--beside and --figure17 contradict each other",
+                "Give one of the two.");
+  }
+  if (is_field(subject) || options.drawn_as == Drawn::shape) {
+    throw Error(ErrorCode::usage, "--beside needs the tree itself", "Give a TREE.");
+  }
+}
+
+}  // namespace
+
+void describe(OptionLine& line, Plate) { line.default_value = "off"; }
+
+std::span<const RenderOptionRow> render_table() {
+  using Row = RenderOptionRow;
+  static const Row rows[] = {
+      Row("Output", "output", &RenderOptions::files,
+          "the picture, or with its buffers; a turntable numbers its frames; repeatable",
+          {.range = ".png .exr, of a turntable .mp4 .webp", .letter = 'o'}),
+      Row("Picture", "look", &RenderOptions::look, "how it is drawn"),
+      Row("Picture", "size", std::pair(&RenderOptions::width, &RenderOptions::height),
+          {1, kLargestSide}, "width and height",
+          {.unit = "pixels",
+           .range = "1 to 16384 each",
+           .default_value = "1024x1024",
+           .value = "WxH"}),
+      Row("Picture", "camera", &RenderOptions::camera_name,
+          "where it is seen from; a name holds all of it",
+          {.range = listed_cameras(), .value = "NAME|FILE", .choices = names(Viewpoint{})}),
+      Row("Picture", "turntable", &RenderOptions::frames, {1, kMostFrames},
+          "the camera goes once about the subject",
+          {.unit = "frames", .default_value = "one picture"}),
+      Row("Picture", "surface", &RenderOptions::surfacing,
+          "rays through the density itself, or a mesh",
+          {.default_value = "mesh of a SHAPE, else direct"}),
+      Row("Picture", "watercolour-style", &RenderOptions::style_name,
+          "how --look watercolour paints",
+          {.range = listed_styles(),
+           .default_value = watercolour_styles().front(),
+           .value = "NAME|FILE",
+           .choices = watercolour_styles()}),
+      Row("Picture", "detail", &RenderOptions::detail, {0, 1},
+          "how many leaf strokes a watercolour has", {.default_value = "the style's"}),
+      Row("Picture", "as", &RenderOptions::drawn_as,
+          "whether a .glb, .gltf, .fbx or .obj file is a tree, or a shape from extract",
+          {.default_value = "by the names in the file"}),
+      Row("Picture", "beside", &RenderOptions::beside,
+          "draws the tree itself to the left of its shape; --size is that of each"),
+      Row("Picture", "figure17", &RenderOptions::figure17,
+          "the paper's plate: thin, fat and the previous method, in two looks; sizes are of one",
+          {.range = "nothing, or paper for the paper's values", .word = "paper"}),
+  };
+  return rows;
+}
+
+bool is_field(const std::filesystem::path& subject) { return lower_extension(subject) == ".vdb"; }
+
+PictureOptions picture_of(const RenderOptions& options, const std::filesystem::path& subject,
+                          const ReadOptions& reading) {
+  check_rows(render_table(), options);
+  if (options.figure17) check_plate(options, subject);
+  if (options.beside) check_beside(options, subject);
+  check_pictures(options.picture_files(), subject, options.beside ? 2 : 1);
+  PictureOptions picture = options;
+  picture.camera = camera_of(options.camera_name, reading);
+  picture.style = style_of(options.style_name, options.detail);
+  if (options.figure17) {
+    check_figure17(picture);
+  } else {
+    check_picture(picture);
+  }
+  return picture;
+}
+
+}  // namespace leafhull
