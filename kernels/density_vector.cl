@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // N at the samples of a brick, for CPUs: one work-item per brick, explicit vectors.
 //
-// A brick is eight sub-bricks of 4 x 4 x 4. Kernels are taken in runs of 32: each is first tested
-// against the eight sub-bricks at once (a float8, the bound xi_min of SPEC 5) and marked, a bit per
-// kernel, in those that it reaches; then every sub-brick sums its kernels, a float16 holding 4 x 4
-// samples of y and z. Sums go in the order of the list.
+// A brick is eight sub-bricks of 4 x 4 x 4. Kernels are taken in runs of 32. Each is first tested
+// against the eight sub-bricks at once (a float8, the bound xi_min of SPEC 5) and marked with a bit
+// in those that it reaches. Then every sub-brick sums its kernels; a float16 holds 4 x 4 samples of
+// y and z. Sums run in the order of the list.
 //
 // Global size: the number of bricks; local size 1.
 #include "density.clh"
@@ -15,14 +15,14 @@
 #define SUB_BRICKS 8
 #define SUB_BRICK_SAMPLES 64
 
-// Half the extent of a sub-brick's samples, more by the rounding of a position; and that of xi, a
-// share of the top.
+// Half the extent of a sub-brick's samples, widened by the rounding of a position; and the rounding
+// of xi, a share of the top.
 #define HALF 1.500015f
 #define XI_SLACK 1.0001f
 
 typedef struct {
   float8 from_kernel[RUN][3];  // U . (centre of each sub-brick - centre of the kernel)
-  uint reached[SUB_BRICKS];    // by which kernels of the run, the highest bit for the first
+  uint reached[SUB_BRICKS];    // a bit for each kernel that reaches it, the highest for the first
 } Run;
 
 static void test_run(global const Kernel* kernels, global const uint* list, int count, int4 origin,
@@ -95,8 +95,9 @@ static void store_slab(float16 n, global float* row) {
   vstore4(n.scdef, 0, row + 3 * BRICK_EDGE);
 }
 
-// kernels: the kernel set. origins: of each brick. first: where its list starts in `list`, and one
-// more. samples: BRICK_SAMPLES per brick. pairs: the kernel-sample pairs that each brick evaluated.
+// kernels: the kernel set. origins: one per brick. first: where each brick's list starts in `list`,
+// then the end of the last. samples: BRICK_SAMPLES per brick. pairs: the kernel-sample pairs that
+// each brick evaluated.
 kernel void density_bricks(global const Kernel* restrict kernels,
                            global const int4* restrict origins, global const uint* restrict first,
                            global const uint* restrict list, global float* restrict samples,

@@ -15,7 +15,7 @@ typedef struct {
   float xx, xy, xz, yy, yz, zz, mx, my, mz, top;
 } Near;
 
-// Arguments as in density_vector.cl.
+// The arguments are those of density_vector.cl.
 kernel __attribute__((reqd_work_group_size(WORK_ITEMS, 1, 1))) void density_bricks(
     global const Kernel* restrict kernels, global const int4* restrict origins,
     global const uint* restrict first, global const uint* restrict list,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// N and its gradient at scattered points, and the way of a mesh vertex onto the surface N = T.
+// Computes N and its gradient at scattered points, and moves mesh vertices onto the surface N = T.
 //
 // Points come in chunks of CHUNK_POINTS that share a list of kernels. On a CPU a work-item takes a
 // chunk, its lanes the points (LANES = CHUNK_POINTS); on a GPU a work-item takes one point
@@ -26,7 +26,7 @@
 #endif
 #define CHUNK (get_global_id(0) * LANES / CHUNK_POINTS)
 
-// Which kernels a chunk's points see, and from where: `PointChunk` of the host.
+// The kernels that may reach a chunk's points, and its origin: `PointChunk` of the host.
 typedef struct {
   int origin[3];    // points are offsets from there, voxels
   uint first, end;  // in the list
@@ -49,7 +49,7 @@ static Sample density_at(global const Kernel* kernels, global const uint* list,
   Sample s = {REAL(0.0f), {REAL(0.0f), REAL(0.0f), REAL(0.0f)}};
   for (uint i = chunk->first; i < chunk->end; ++i) {
     global const Kernel* k = kernels + list[i];
-    // The fourth components are not used.
+    // The fourth components are unused.
     const float4 centre = convert_float4(vload4(0, k->cell) - origin) + vload4(0, k->offset);
     const real dx = p.x - centre.x, dy = p.y - centre.y, dz = p.z - centre.z;
     const real u = fma(REAL(k->xx), dx, fma(REAL(k->xy), dy, k->xz * dz));
@@ -77,9 +77,9 @@ kernel void density_points(global const Kernel* restrict kernels,
   STORE(density_at(kernels, list, chunks + CHUNK, p).density, density);
 }
 
-// How near to the surface counts as on it, voxels: |N - T| against the steepness.
+// A point this near to the surface counts as on it, voxels: |N - T| over the steepness.
 #define CLOSE_ENOUGH 5e-4f
-// Halvings of the way to a corner.
+// The number of times that the way to a corner is halved.
 #define HALVINGS 14
 
 typedef struct {
@@ -95,15 +95,15 @@ static Vertex choose(Vertex no, Vertex yes, truth c) {
 
 static truth is_off(Vertex v) { return fabs(v.miss) > CLOSE_ENOUGH * sqrt(square(v.gradient)); }
 
-// A component of the way along the gradient, or zero where it would leave the cell.
+// A component of a step along the gradient, or zero if it would leave the cell.
 static real within(real gradient, real miss, real x, real low) {
   const truth leaves =
       ((x <= low) & (miss * gradient > 0.0f)) | ((x >= low + 1.0f) & (miss * gradient < 0.0f));
   return select(gradient, REAL(0.0f), leaves);
 }
 
-// A share of Newton's step along the gradient, a voxel at most, that slides along the faces of the
-// cell [low, low + 1].
+// A share of a Newton step along the gradient, at most a voxel long, which slides along the faces
+// of the cell [low, low + 1].
 static Real3 newton_step(Vertex v, Real3 low, real share) {
   const Real3 way = {within(v.gradient.x, v.miss, v.at.x, low.x),
                      within(v.gradient.y, v.miss, v.at.y, low.y),
@@ -122,10 +122,11 @@ static Real3 corner_of(Real3 low, int i) {
 // Moves each point onto N = threshold within the cell that it starts in (steps = 0: leaves it where
 // it is) and writes the normal -grad N / |grad N| there, or zero where the gradient vanishes.
 //
-// At most `steps` Newton steps; one that brings N no closer to T is halved. Where that ends on a
-// plain or in a corner: the crossing between the point and the nearest corner of the cell on the
-// other side of the surface, by halving. A lane that has arrived stays, so a point's way does not
-// depend on its chunk. One loop, as compilers take their time for each place that sums.
+// It takes at most `steps` Newton steps and halves those that bring N no closer to T. If they end
+// where N is flat or in a corner, it finds, by halving, the crossing between the point and the
+// nearest corner of the cell on the other side of the surface. A lane that has arrived stays, so a
+// point's way does not depend on its chunk. There is a single loop because compile time grows with
+// each place that sums.
 kernel void snap_points(global const Kernel* restrict kernels, global const Chunk* restrict chunks,
                         uint count, global const uint* restrict list, float threshold, int steps,
                         global float* restrict xs, global float* restrict ys,

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rays against the surface N = T: no polygons.
+// Casts rays at the surface N = T, without polygons.
 //
 // Space is root blocks of 32 samples; a root is outside, inside or 64 bricks of 8 samples, each
-// outside, inside or evaluated. In an evaluated brick N comes from the kernels near it, or where
-// SAMPLED is defined from its samples, trilinearly. Along a ray xi of a kernel is a parabola
+// outside, inside or evaluated. In an evaluated brick N comes from the kernels near it or, if
+// SAMPLED is defined, trilinearly from its samples. Along a ray, a kernel's xi is a parabola
 // (Kanamori et al., "GPU-based Fast Ray Casting for a Large Number of Metaballs", 2008, call what
 // is near a ray its active list); N is summed at STEPS points of a ray's way through a brick, and
 // the piece where it passes T is cut again, until it is short.
@@ -13,17 +13,17 @@
 // Global size: the number of rays over LANES, or more.
 #include "way.clh"
 
-// Steps over the edge of a block, voxels; more where t is so large that it would be lost.
+// A step over the edge of a block, voxels; larger if t is so large that rounding would lose it.
 #define NUDGE(t) fmax(4e-7f * (t), 1e-3f)
-// Rounding in the test of a kernel against a beam, voxels.
+// The allowance for rounding when a kernel is tested against a beam, voxels.
 #define BEAM_SLACK 1e-2f
-// From a crossing that is not drawn to where the ray goes on.
+// How far past a crossing that is not drawn a ray goes on.
 #define PAST_HIDDEN 1e-2f
 
 static real kept_from_zero(real d) { return select(d, REAL(1e-12f), fabs(d) < 1e-12f); }
 
-// The first and the last of the points of the lanes' ways through a brick that lie near the
-// surface; none: the first is behind the last.
+// The first and the last point near the surface on the lanes' ways through a brick; if there is
+// none, the first is behind the last.
 static int2 near_stretch(const Grid* grid, int brick, Real3 p, Real3 d, real step, truth lanes) {
   const Truths here = {.v = lanes};
   int2 stretch = {STEPS, -1};
@@ -50,7 +50,7 @@ static int first_of(truth lanes) {
   return lane;
 }
 
-// From the anchor.
+// The beam around the lanes' ways, with positions from the anchor.
 static Beam beam_of(const Block* block, Real3 p, Real3 d, real step, truth lanes) {
   const Reals px = {.v = p.x}, py = {.v = p.y}, pz = {.v = p.z};
   const Reals dx = {.v = d.x}, dy = {.v = d.y}, dz = {.v = d.z};
@@ -59,7 +59,7 @@ static Beam beam_of(const Block* block, Real3 p, Real3 d, real step, truth lanes
             dy.lane[lane], dz.lane[lane], 0.0f,          0.0f};
   const Reals length = {.v = select(REAL(0.0f), step * (float)PIECES, lanes)};
   for (int i = 0; i < LANES; ++i) b.length = fmax(b.length, length.lane[i]);
-  // Two lines are farthest apart at an end of the way.
+  // Two lines are farthest apart at one end of the way.
   const Real3 q = along(p, d, REAL(b.length));
   const real x0 = p.x - b.x, y0 = p.y - b.y, z0 = p.z - b.z;
   const real x1 = q.x - fma(b.length, b.dx, b.x), y1 = q.y - fma(b.length, b.dy, b.y),
@@ -93,7 +93,7 @@ kernel void rays_closest(GRID_ARGUMENTS, global const Kernel* restrict kernels,
                    kept_from_zero(component[5].v)};
   const Real3 inverse = {1.0f / d.x, 1.0f / d.y, 1.0f / d.z};
 
-  // From here rays begin where they enter the grid, where floats are fine.
+  // Rays begin where they enter the grid from here on, as floats are precise there.
   const Real3 to_low = {((float)(low.x * ROOT_EDGE) - o.x) * inverse.x,
                         ((float)(low.y * ROOT_EDGE) - o.y) * inverse.y,
                         ((float)(low.z * ROOT_EDGE) - o.z) * inverse.z};
@@ -108,7 +108,7 @@ kernel void rays_closest(GRID_ARGUMENTS, global const Kernel* restrict kernels,
   o = along(o, d, entry);
 
   truth active = end > 0.0f;
-  truth inside = FALSE, known = entry > 0.0f;  // on which side of the surface
+  truth inside = FALSE, known = entry > 0.0f;  // the side of the surface, and whether it is known
   Source source;
   source.kernels = kernels;
   source.balls = balls;
@@ -153,7 +153,7 @@ kernel void rays_closest(GRID_ARGUMENTS, global const Kernel* restrict kernels,
       active &= !(here & (t >= end));
       continue;
     }
-    // From the first point near the surface to the last, and to those beside them.
+    // Covers the first to the last point near the surface, and one more on each side.
     const int begin = max(stretch.x - 1, 0), finish = min(stretch.y + 1, PIECES);
     if (begin > 0) known &= !here;
     const real skipped = step * (float)begin;
@@ -211,10 +211,10 @@ kernel void rays_closest(GRID_ARGUMENTS, global const Kernel* restrict kernels,
 
 // ---- Light ----
 
-// How much of a light a ray of length `reach` does not get, 0 to 1: the highest of
-// saturate((N - T) / soft) at points a voxel apart, N from the samples. A small `soft` tells
-// whether it meets a place inside: shadow. T itself gives ambient occlusion, 1 - saturate of N
-// above T. A work-item per ray.
+// The share of light that is blocked along a ray of length `reach`, 0 to 1: the highest
+// saturate((N - T) / soft) at points a voxel apart, with N from the samples. A small `soft` tells
+// whether the ray meets a place inside, which is shadow; a `soft` of T gives ambient occlusion.
+// There is a work-item per ray.
 kernel void rays_blocked(GRID_ARGUMENTS, float threshold, float soft, float reach, uint count,
                          global const float* restrict rays, global float* restrict blocked) {
   const uint i = get_global_id(0);
@@ -234,12 +234,12 @@ kernel void rays_blocked(GRID_ARGUMENTS, float threshold, float soft, float reac
     t = fmax(t, fmin(to_low, to_high));
     end = fmin(end, fmax(to_low, to_high));
   }
-  // From here the ray begins where it enters the grid, where floats are fine.
+  // The ray begins where it enters the grid from here on, as floats are precise there.
   for (int a = 0; a < 3; ++a) o[a] = fma(t, d[a], o[a]);
   end -= t;
   t = 0.0f;
   float most = 0.0f;
-  int counts = 0;  // inside of what is drawn: its surface was passed
+  int counts = 0;  // whether the ray is inside a drawn part, whose surface it passed
   while (t < end && most < 1.0f) {
     const float x = fma(t, d[0], o[0]), y = fma(t, d[1], o[1]), z = fma(t, d[2], o[2]);
     const int cx = (int)floor(x), cy = (int)floor(y), cz = (int)floor(z);

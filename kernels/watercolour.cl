@@ -4,16 +4,16 @@
 // "Interactive Watercolor Rendering with Temporal Coherence and Abstraction", NPAR 2006; S. E.
 // Montesdeoca et al., "Edge- and Substrate-based Effects for Watercolor Stylization", 2017.
 //
-// Pigment is kept as its density d: one of colour C on white paper sends back C^d (Beer and
-// Lambert), so that C' = C^(1 + e) of the papers is d' = d (1 + e), and layers
-// over one another add up -d ln C.
+// Pigment is kept as its density d: pigment of colour C on white paper reflects C^d (Beer and
+// Lambert). So C' = C^(1 + e) in the papers becomes d' = d (1 + e), and layers over one another add
+// up -d ln C.
 //
-// Global size: the values of a plane / LANES, but for `see`, `pad` and `develop`: one work-item a
+// Global size: the values of a plane / LANES; for `see`, `pad` and `develop`, one work-item per
 // pixel.
 #include "watercolour.clh"
 
-// Planes from what pixels see; sums over a pixel, so zero where it sees nothing. light: 0..1, of
-// which the sky gives a share of `sky`, the key light wrapped around by `wrap`.
+// Makes planes from what pixels see. Values are sums over a pixel, so they are zero where it sees
+// nothing. light: 0..1; the sky gives the share `sky`, the key light, wrapped by `wrap`, the rest.
 kernel void see(int width, int height, int pitch, global const uchar* object,
                 global const float* normal, global const float* position, global const float* depth,
                 global const float* key, global const float* open, float lx, float ly, float lz,
@@ -36,19 +36,19 @@ kernel void see(int width, int height, int pitch, global const uchar* object,
   z[to] = any ? p.z : 0.0f;
 }
 
-// A plane of a picture's values; the padding is zero.
+// Makes a plane of a picture's values; the padding is zero.
 kernel void pad(int width, int height, int pitch, global const float* values, global float* out) {
   const int column = get_global_id(0), row = get_global_id(1);
   const bool inside = column < width && row < height;
   out[row * pitch + column] = inside ? values[row * width + column] : 0.0f;
 }
 
-// 1 - the light, of what is seen.
+// 1 - the light, over the visible part of each pixel.
 kernel void darkness(image light, image seen, canvas out) {
   STORE(saturate(1.0f - share(LOAD(light), LOAD(seen))), out);
 }
 
-// What a pixel sees and, where it sees nothing but paint may reach, what its neighbours do.
+// The value that a pixel sees or, if it sees nothing but paint may reach it, its neighbours'.
 kernel void extend(image seen, image value, image seen_near, image value_near, canvas out) {
   STORE(blend(share(LOAD(value_near), LOAD(seen_near)), LOAD(value), LOAD(seen)), out);
 }
@@ -59,7 +59,7 @@ kernel void visibility(image far, image seen_around, image far_around, float rea
   STORE(1.0f - smooth(REAL(0.0f), REAL(reach), behind), out);
 }
 
-// a, as much as b lets it: a blend of a and a b by `amount`.
+// Masks a by b: a blend of a and a b by `amount`.
 kernel void mask(image a, image b, float amount, canvas out) {
   STORE(LOAD(a) * fma(REAL(amount), LOAD(b) - 1.0f, REAL(1.0f)), out);
 }
@@ -74,23 +74,22 @@ kernel void layer(image rho, image within, image height, image sway, image break
   const real r = LOAD(rho);
   const real moved = fma(REAL(dryness), LOAD(height) - 0.5f,
                          fma(REAL(wobble), LOAD(sway), ragged * LOAD(breaking)));
-  const real painted = saturate(8.0f * r);  // nothing moves paint to where there is none
+  const real painted = saturate(8.0f * r);  // no paint moves to places without any
   const real half_width = fma(REAL(lost), saturate(LOAD(wetness)), REAL(softness));
-  // However soft an edge is, where rho is zero there is none.
+  // However soft an edge is, there is no paint where rho is zero.
   const real low = fmax(level - half_width, REAL(0.0f));
   STORE(LOAD(within) * smooth(low, level + half_width, fma(painted, moved, r)), out);
 }
 
-// Pigment carried to the rim while a layer dries: more where the layer is denser than around.
-// After Bousseau et al. 2006, with the difference from a blur for the gradient.
+// Pigment is carried to the rim while a layer dries: more where the layer is denser than its
+// surroundings. After Bousseau et al. 2006, with the difference from a blur as the gradient.
 kernel void darken_edges(image alpha, image around, float amount, canvas density) {
   const real a = LOAD(alpha);
   STORE(a * fma(REAL(amount), fmax(a - LOAD(around), REAL(0.0f)), REAL(1.0f)), density);
 }
 
-// Density that varies by the turbulence of the water (Bousseau et al. 2006), has backruns where
-// water flowed back and left its pigment along a front, and is thinned where the light is
-// brightest.
+// Varies the density by the turbulence of the water (Bousseau et al. 2006), adds backruns where
+// water flowed back and left its pigment along a front, and thins it where the light is brightest.
 kernel void dilute(canvas density, image turbulence, image dark, float turbulent, float backruns,
                    float dilution) {
   const real t = LOAD(turbulence);
@@ -133,7 +132,7 @@ kernel void bleed(canvas absorbance, image around, image wet) {
   STORE(blend(a, LOAD(around), saturate(LOAD(wet))), absorbance);
 }
 
-// sRGB of the paper under the paint. shading: of the paper's relief, Montesdeoca et al. 2017.
+// The sRGB of paper and paint. shading: how strong the paper's relief is, Montesdeoca et al. 2017.
 kernel void develop(int width, int pitch, global const float* red, global const float* green,
                     global const float* blue, global const float* relief, float4 paper,
                     float shading, global uchar* rgb) {

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// A blur along the columns whose result is turned, columns into rows: twice is a blur both ways and
-// the picture upright again.
+// Blurs along the columns and transposes the result: doing this twice blurs both ways and restores
+// the picture's orientation.
 //
-// weights: of a pixel itself and of its neighbours up to `reach`; rows: of the picture, beyond
-// which its first and last row go on. Global size: pitch / LANES, pitch_turned / LANES. On CPUs a
+// weights: that of the pixel, then of its neighbours up to `reach`. rows: the picture's; beyond
+// them its first and last row repeat. Global size: pitch / LANES, pitch_turned / LANES. On CPUs a
 // work-item takes a square, so that it loads whole vectors, and the local size is 1.
 #include "watercolour.clh"
 
 #if LANES == 16
 
-#define SIDE_BY_SIDE 4  // sums that need not wait for each other
+#define SIDE_BY_SIDE 4  // independent sums, which need not wait for each other
 
 // window: LANES + 2 * reach of real.
 kernel void blur(image in, int pitch, int rows, constant float* weights, int reach,

@@ -25,7 +25,7 @@ static real corner2(whole x, whole y, uint seed, real dx, real dy) {
   return fma(component(h, 0), dx, component(h, 10) * dy);
 }
 
-// About -1..1; repeats after `period` cells either way.
+// Noise of about -1..1 that repeats after `period` cells either way.
 static real noise2(real x, real y, int period, uint seed) {
   const real fx = floor(x), fy = floor(y);
   const whole x0 = TO_WHOLE(fx) % period, y0 = TO_WHOLE(fy) % period;
@@ -42,7 +42,7 @@ static real corner3(bits x, bits yz, real dx, real dy, real dz) {
   return fma(component(h, 0), dx, fma(component(h, 10), dy, component(h, 20) * dz));
 }
 
-// About -1..1.
+// Noise of about -1..1.
 static real noise3(real x, real y, real z, uint seed) {
   const real fx = floor(x), fy = floor(y), fz = floor(z);
   const bits x0 = AS_BITS(TO_WHOLE(fx)), y0 = AS_BITS(TO_WHOLE(fy)), z0 = AS_BITS(TO_WHOLE(fz));
@@ -63,7 +63,7 @@ static real noise3(real x, real y, real z, uint seed) {
   return 1.3f * blend(side[0], side[1], w);
 }
 
-// Noise of so many cells in a period, at parts of it.
+// Noise with `cells` cells per period; u and v are fractions of the period.
 static real cells2(real u, real v, int cells, uint seed) {
   return noise2(u * (float)cells, v * (float)cells, cells, seed);
 }
@@ -76,7 +76,7 @@ static real tooth(real u, real v, int cells, uint seed) {
 // The paper: `height` of its surface, about 0..1; `speckle`, where dispersed pigment lies, and
 // `sway`, how a brush's edge wanders over the grain, both about -1..1; `relief`, how much light it
 // sends back under a lamp at the upper left, about 1. It repeats after `period` pixels either way.
-// cells: of its grain in a period.
+// cells: cells of the grain per period.
 kernel void paper(int pitch, float period, int cells, uint seed, canvas height, canvas speckle,
                   canvas sway, canvas relief) {
   const size_t i = get_global_id(0) * LANES;
@@ -95,8 +95,8 @@ kernel void paper(int pitch, float period, int cells, uint seed, canvas height, 
   STORE(1.0f + (here - right) + (here - below) + 0.5f * fine, relief);
 }
 
-// A patch of ground at (foot_x, foot_y), its half-axes (reach_x, reach_y) pixels: 1 in its middle
-// falling through 0, streaked along the ground.
+// A patch of ground at (foot_x, foot_y) with half-axes of (reach_x, reach_y) pixels, streaked along
+// the ground: 1 in its middle, falling through 0 outwards.
 kernel void ground(int pitch, float size, float foot_x, float foot_y, float reach_x, float reach_y,
                    uint seed, canvas out) {
   const size_t i = get_global_id(0) * LANES;

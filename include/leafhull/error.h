@@ -7,7 +7,7 @@
 
 namespace leafhull {
 
-/// What kind of thing went wrong; the value is the command's exit code.
+/// The kind of failure; the value is the command's exit code.
 enum class ErrorCode {
   internal = 1,  ///< a defect of leafhull
   usage = 2,     ///< an option or a combination of options that makes no sense
@@ -24,7 +24,7 @@ class Error : public std::runtime_error {
       : std::runtime_error(message), code_(code), remedy_(std::move(remedy)) {}
 
   ErrorCode code() const { return code_; }
-  /// One sentence that says what to do; may be empty.
+  /// One sentence that says what to do; it may be empty.
   const std::string& remedy() const { return remedy_; }
 
  private:

@@ -23,18 +23,19 @@ struct TextureEllipse {
 /// Red, green and blue, 8 bits each of sRGB.
 using Srgb = std::array<std::uint8_t, 3>;
 
-/// The colour that leaves have, where names cannot tell them.
+/// The colour of the leaves, for files whose names do not tell which triangles are leaves.
 struct LeafColour {
   Srgb srgb{};
-  /// The largest distance in Oklab that is still this colour; 0: of two classes the nearer one.
+  /// The largest distance in Oklab that still counts as this colour; 0: distances are parted into
+  /// two classes, and the nearer one counts.
   double tolerance = 0;
 };
 
 struct LeafOptions {
   std::vector<std::string> globs;         ///< empty: evidence decides
-  std::vector<std::string> not_globs;     ///< what is not leaves, whatever else says so
-  std::optional<LeafColour> colour;       ///< of those, the triangles of this colour alone
-  std::optional<Srgb> tint;               ///< what they are drawn in; empty: their own colour
+  std::vector<std::string> not_globs;     ///< what is never leaves, whatever else it matches
+  std::optional<LeafColour> colour;       ///< keeps only the triangles of this colour
+  std::optional<Srgb> tint;               ///< the colour to draw them in; empty: their own
   std::optional<TextureEllipse> ellipse;  ///< empty: the alpha texture, else the triangles
   double scale = 1;                       ///< multiplies R_u and R_v; > 0
 };
@@ -68,31 +69,30 @@ struct LeafChoice;
 struct LeafSet {
   std::vector<LeafVertex> vertices;  ///< in an order that depends on the geometry alone
   std::size_t leaf_count = 0;
-  /// Of each leaf, its place among them in the file, by which a leaf of a moving tree is known from
-  /// frame to frame; or none.
+  /// Each leaf's index in the file, stable across the frames of a moving tree; or none.
   std::vector<std::uint32_t> order_in_file;
   std::size_t dropped_leaves = 0;    ///< zero area, no usable normal or not finite
   std::size_t split_components = 0;  ///< components that were not one flat leaf
   double mean_radius_major = 0;      ///< mean R_u over the leaves, model units
-  double area = 0;                   ///< that is visible, one side of it, model units squared
+  double area = 0;                   ///< visible area of one side only, in model units squared
   std::optional<Vec3f> colour;       ///< linear, mean; none: unknown
-  std::shared_ptr<const LeafSheets> sheets;  ///< what `area` is of
+  std::shared_ptr<const LeafSheets> sheets;  ///< the surfaces that `area` measures
   Box bounds;                                ///< of the vertices
-  /// Of the vertices but for strays, the few leaves that lie far from the rest: what lengths in
-  /// crown units and resolutions count along. SPEC: 4.
+  /// The box of the vertices without strays, the few leaves that lie far from the rest. Lengths in
+  /// crown units and resolutions refer to it. SPEC: 4.
   Box crown;
   std::size_t stray_leaves = 0;
   std::shared_ptr<const LeafChoice> choice;  ///< how they were found
   std::vector<std::string> warnings;
 };
 
-/// What speaks for something's being leaves, above 0, and against it: about the logarithms of odds.
+/// How much speaks for something being leaves (above 0) or against it, roughly as log odds.
 struct LeafEvidence {
   double name = 0;    ///< words in the names of material, texture, mesh, node and its parents
   double alpha = 0;   ///< holes in the texture where the triangles use it
   double colour = 0;  ///< green, autumn and blossom against brown and grey
   double shape = 0;   ///< small flat pieces and lobes against tubes and the ground
-  double place = 0;   ///< above against below
+  double place = 0;   ///< high up against low down
   double total() const { return name + alpha + colour + shape + place; }
 };
 
@@ -108,10 +108,10 @@ struct LeafCandidate {
   std::string material, mesh, node;  ///< or none
   AlphaMode alpha_mode = AlphaMode::opaque;
   std::string colour;    ///< "#rrggbb" in sRGB, mean of what is visible; or none
-  bool is_part = false;  ///< of a primitive that holds other things too
+  bool is_part = false;  ///< it is part of a primitive that holds other things too
   std::size_t instances = 0, vertices = 0, triangles = 0;
   double area = 0;   ///< of all instances, one side, model units squared
-  std::string word;  ///< of the names, that told most
+  std::string word;  ///< the word in the names that counted most
   LeafEvidence evidence;
   LeafVerdict verdict = LeafVerdict::other;
 };
@@ -121,15 +121,15 @@ struct LeafChoice {
   std::vector<bool> instances;               ///< whether any of its triangles are leaves
   std::vector<std::vector<bool>> triangles;  ///< by primitive, those that are leaves; empty: all
   std::vector<bool> cut_out;   ///< by material: the alpha of its image counts though it is opaque
-  std::vector<bool> left_out;  ///< by instance: a coarser level of what is there already
-  std::shared_ptr<const WeldedPrimitives> welded;  ///< what find_leaves() can take up; or none
+  std::vector<bool> left_out;  ///< by instance: a coarser level of detail of another one
+  std::shared_ptr<const WeldedPrimitives> welded;  ///< for find_leaves() to reuse; or none
   std::vector<LeafCandidate> candidates;           ///< the likeliest first
   /// The leaves' mean linear colour by visible area: texture times factor times vertex colour. None
-  /// where the file tells no colour.
+  /// where the file gives no colour.
   std::optional<Vec3f> colour;
-  bool is_tinted = false;            ///< the colour is --leaf-colour's
-  LeafKind kind = LeafKind::broad;   ///< of most of them, as names say
-  std::string told;                  ///< what was taken and what passed over, and why; one line
+  bool is_tinted = false;            ///< `colour` was given as --leaf-colour
+  LeafKind kind = LeafKind::broad;   ///< the kind of most leaves, as names say
+  std::string told;                  ///< what was taken, what was skipped, and why; one line
   std::vector<std::string> options;  ///< those that would take the likeliest candidates
   std::vector<std::string> warnings;
 
@@ -150,7 +150,7 @@ inline LeafChoice choose_leaves(const TreeModel& tree, const LeafOptions& option
 ///         usage where an option is out of range.
 LeafSet find_leaves(const TreeModel& tree, const LeafOptions& options);
 
-/// Finds the leaves that were chosen before.
+/// Finds the leaves of an earlier choice.
 LeafSet find_leaves(const TreeModel& tree, const LeafChoice& choice, const LeafOptions& options);
 
 /// Finds the chosen leaves among some instances of the tree's primitives, which need not be its

@@ -30,7 +30,7 @@ enum class Preset { paper_32, paper_64, paper_128, draft, standard, fine, ultra,
 /// `resolve` fills it in. Ranges, units and defaults stand in `option_table()`.
 struct Options {
   // Input
-  std::optional<Up> up;        ///< empty: the file's own word, else y
+  std::optional<Up> up;        ///< empty: as the file says, else y
   bool allow_outside = false;  ///< textures may lie outside of the tree's folder
 
   // Leaves

@@ -19,18 +19,18 @@ struct Picture {
   std::vector<std::uint8_t> rgb;  ///< 3 * width * height
 };
 
-/// What a picture holds: points and as much around each as `reach`, model units.
+/// What a picture must show: points, and the space within `reach` (model units) of each.
 struct Frame {
   std::vector<Vec3d> points;
   double reach = 0;
 };
 
-/// The crown's leaf vertices and what kernels with radii up to `radius_max` (model units), or the
-/// leaves' own, fill around them. Strays may lie outside.
+/// The frame of the crown's leaf vertices and the space that their kernels fill, with radii up to
+/// `radius_max` (model units) or the leaves' own. Strays may lie outside.
 Frame frame_of(const LeafSet& leaves, double radius_max);
 
 /// A shaded picture of a closed mesh on white, seen from three quarters. Pictures of one `frame`
-/// and size are taken from the same place and compare. A mesh without vertices is white paper.
+/// and size share a viewpoint, so they can be compared. A mesh without vertices gives a white one.
 /// @throws Error usage: no pixels, or a mesh in a frame without extent; internal: the ray tracer
 /// does not start.
 Picture draw_shape(const Mesh& mesh, const Frame& frame, int width, int height);
@@ -48,13 +48,13 @@ Picture contact_sheet(std::string_view title, std::span<const LabelledPicture> p
 /// @throws Error usage: it is too large for one.
 std::vector<std::uint8_t> encode_png(const Picture& picture);
 
-/// The picture as a JPEG file: at a quality of 85 a sixth of the PNG file's size.
+/// The picture as a JPEG file; at quality 85 it is a sixth of the PNG file's size.
 /// @param quality 1 to 100.
 /// @throws Error usage: it is too large for one.
 std::vector<std::uint8_t> encode_jpeg(const Picture& picture, int quality);
 
-/// The picture that `file` is, a PNG.
-/// @throws Error input: it is none.
+/// Decodes a PNG file.
+/// @throws Error input: it is not a PNG.
 Picture decode_png(std::span<const std::uint8_t> file);
 
 }  // namespace leafhull

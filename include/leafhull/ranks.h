@@ -12,8 +12,8 @@ namespace leafhull {
 
 /// What the ranks add up while they work.
 enum class Sum {
-  tiles,          ///< that are on the disk, those from an earlier run included
-  leaf_vertices,  ///< of this run's tiles
+  tiles,          ///< tiles on disk, including those from an earlier run
+  leaf_vertices,  ///< leaf vertices in this run's tiles
 };
 
 /// A rank as its host knows it.
@@ -22,8 +22,8 @@ struct RankProcess {
   int pid = 0;
 };
 
-/// The processes that share a run. Collective calls are made by all of them in the same order. For
-/// one thread at a time. A rank that cannot go on calls abort(): the others would wait for it.
+/// The processes that share a run. All of them make collective calls, in the same order. One thread
+/// at a time may use it. A rank that cannot go on calls abort(), or the others would wait for it.
 class Ranks {
  public:
   virtual ~Ranks() = default;  ///< Collective.
@@ -38,40 +38,41 @@ class Ranks {
   virtual std::uint64_t next() = 0;
   /// Sets that counter to 0. Collective.
   virtual void reset() = 0;
-  /// Adds to a sum that all ranks share, 0 at first, and returns it. Waits for no other rank.
+  /// Adds to a sum that all ranks share, initially 0, and returns it. Waits for no other rank.
   virtual std::uint64_t add(Sum sum, std::uint64_t amount) = 0;
 
-  /// Adds up what the ranks hold, number by number. Collective.
+  /// Replaces each number by its sum over all ranks. Collective.
   virtual void sum(std::span<std::uint64_t> numbers) = 0;
-  /// What every rank says, by rank. Collective.
+  /// The strings that all ranks passed, by rank. Collective.
   virtual std::vector<std::string> all(const std::string& mine) = 0;
-  /// Waits for all, without taking a core. Collective.
+  /// Waits for all ranks without using a core. Collective.
   virtual void barrier() = 0;
 
-  // For a rank that ends before its time, in a handler of a signal too: these four are
+  // The next four serve a rank that ends early, perhaps in a signal handler: they are
   // async-signal-safe.
 
-  /// Says that this rank ends. True for the first on its host, which is the one to say why.
+  /// Announces that this rank ends. True for the first on its host, which must report why.
   virtual bool leave() noexcept = 0;
-  /// Whether the rank is of this host and its process is gone without a word, as after kill -9.
+  /// Whether the rank ran on this host and its process died without leave(), as after kill -9.
   virtual bool is_lost(int rank) const noexcept = 0;
-  /// What add() returned, to any rank of this host; on one host, the sum itself.
+  /// What add() last returned to any rank of this host; on a single host, the sum itself.
   virtual std::uint64_t last(Sum sum) const noexcept = 0;
 
-  /// Waits until the other ranks of this host have left or are gone, half a second at most: where
-  /// the first one ends, Open MPI's mpirun may kill (-9) the rest in the middle of their leaving.
+  /// Waits, half a second at most, until the other ranks of this host have left or are gone: when
+  /// the first one ends, Open MPI's mpirun may kill (-9) the rest while they are leaving.
   virtual void leave_together() noexcept = 0;
 
-  /// Ends every rank, this one with an exit code, after an error that the others do not know of.
+  /// Ends every rank after an error the others do not know of; this one exits with `exit_code`.
   [[noreturn]] virtual void abort(int exit_code) = 0;
 };
 
 /// One process on its own.
 std::unique_ptr<Ranks> single_rank();
 
-/// The ranks of mpirun or srun, or one where the process was not started by them as one of several.
-/// @throws Error usage: started as one of several by mpirun, and built without MPI or with another
-///         one than mpirun's.
+/// The ranks of mpirun or srun, or a single one if they did not start this process as one of
+/// several.
+/// @throws Error usage: started as one of several by mpirun, but built without MPI or with another
+///         MPI than mpirun's.
 std::unique_ptr<Ranks> open_ranks();
 
 }  // namespace leafhull

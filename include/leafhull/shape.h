@@ -33,13 +33,13 @@ struct Mesh {
   std::vector<Vec3f> positions;
   std::vector<Vec3f> normals;  ///< -grad N / |grad N|
   std::vector<std::array<std::uint32_t, 3>> triangles;
-  std::optional<Vec3f> colour;  ///< of its material, linear; none: leafhull's green
+  std::optional<Vec3f> colour;  ///< its material's, linear; none: leafhull's green
 };
 
 /// The sampled density; only leafhull's own stages look inside.
 class Field;
 
-struct DensityStatistics {  ///< of N_iso over the leaf points, by area
+struct DensityStatistics {  ///< N_iso over the leaf points, weighted by area
   double mean = 0, variance = 0, p1 = 0, p2 = 0;
 };
 
@@ -47,11 +47,11 @@ struct DensityStatistics {  ///< of N_iso over the leaf points, by area
 struct Metrics {
   std::uint64_t dilated_voxels = 0;    ///< inside or on, and without a leaf vertex
   std::uint64_t inside_voxels = 0;     ///< all corners at T or above
-  std::uint64_t on_voxels = 0;         ///< some corners
-  std::uint64_t off_site_exact = 0;    ///< places on the leaves with N below T, summed there
-  std::uint64_t off_site_sampled = 0;  ///< the same, N interpolated from the lattice
+  std::uint64_t on_voxels = 0;         ///< some corners at T or above
+  std::uint64_t off_site_exact = 0;    ///< places on the leaves where N, summed there, is below T
+  std::uint64_t off_site_sampled = 0;  ///< likewise, N interpolated from the lattice
   double erosion = 0;   ///< the share of the places on the leaves that the shape leaves outside
-  double dilation = 0;  ///< dilated voxels over voxels of the shape, 64 along it at any resolution
+  double dilation = 0;  ///< dilated voxels over the shape's voxels, always counted at 64 along it
 };
 
 /// Places on the leaves are their vertices or, with PointSource::area, samples of equal area.
@@ -77,12 +77,12 @@ struct Report {
   std::string device;
   Counts counts;
   DensityStatistics density;
-  double leaf_area = 0;              ///< that is visible, model units squared
+  double leaf_area = 0;              ///< visible area, model units squared
   std::optional<Vec3f> leaf_colour;  ///< linear, mean; none: unknown
-  double covered = 0;  ///< the share of the places on the leaves that lies inside, summed there
+  double covered = 0;  ///< the share of places on the leaves where N, summed there, is T or above
   Metrics metrics;
   std::vector<StageTime> seconds;       ///< in order, the total last
-  std::uint64_t peak_memory_bytes = 0;  ///< of the process; the caller's to set
+  std::uint64_t peak_memory_bytes = 0;  ///< of the process; set by the caller
   std::vector<std::string> warnings;
 };
 
@@ -94,15 +94,14 @@ struct Shape {
   Report report;
 };
 
-/// Called from the calling thread at the start of each stage and as it goes on, `done` from 0 to 1.
+/// Called on the caller's thread when a stage starts and as it proceeds; `done` is from 0 to 1.
 using Progress = std::function<void(std::string_view stage, double done)>;
 
 /// The abstract shape of a tree's leaves: the stages of Figure 8, one after the other. SPEC: 2
 /// to 6.
 /// @throws Error usage: options, or a resolution that does not fit in memory; input: no leaves, or
-/// a
-///         crown without extent; device: a kernel that does not build (with its log) or run; empty:
-///         no sample reaches the threshold.
+///         a crown without extent; device: a kernel that does not build (with its log) or run;
+///         empty: no sample reaches the threshold.
 Shape extract(const LeafSet& leaves, const Options& options, Device& device,
               const Progress& progress = {});
 

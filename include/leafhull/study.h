@@ -16,7 +16,7 @@
 
 namespace leafhull {
 
-/// How the points that the paper leaves open are read. SPEC: 2, 3.
+/// A reading of the points that the paper leaves open. SPEC: 2, 3.
 struct Reading {
   int falloff = 2;
   Spread spread = Spread::stddev;
@@ -37,17 +37,17 @@ struct StudyTime {
   int resolution = 0;
   int runs = 0;
   bool empty = false;   ///< one of the two has no surface: there are no seconds
-  double previous = 0;  ///< L&D: steps 1, 6 and 7 of Figure 8
-  double proposed = 0;  ///< CTRLED: steps 1 to 7
-  double control = 0;   ///< of `proposed`, steps 2 to 5
+  double previous = 0;  ///< L&D: seconds for steps 1, 6 and 7 of Figure 8
+  double proposed = 0;  ///< CTRLED: seconds for steps 1 to 7
+  double control = 0;   ///< the part of `proposed` for steps 2 to 5
 };
 
-/// Whether a claim holds; open: the figures have nothing to compare.
+/// Whether a claim holds; open: there are no figures to compare.
 enum class Outcome { holds, fails, open };
 
 std::string_view name(Outcome outcome);  ///< "holds", "fails", "open"
 
-/// One claim of the paper, or half of one, held against one tree under one reading. Plain text.
+/// One claim of the paper, or half of one, tested on one tree under one reading. Plain text.
 struct Verdict {
   std::string number;  ///< "1a"
   std::string claim;   ///< what is claimed, one sentence
@@ -66,42 +66,41 @@ struct ReadingStudy {
   std::vector<Verdict> verdicts;  ///< the same claims in the same order for every reading
 };
 
-/// Where p1 and p2 lie: `low` and `high` deviations s above the mean m of N_iso, or such that so
-/// many percent of the leaf vertices have a lower N_iso. Source: Eqs. (9), (10), which have 0 and 2
-/// s.
+/// Where p1 and p2 lie: `low` and `high` are deviations s above the mean m of N_iso, or the percent
+/// of leaf vertices with a lower N_iso. Source: Eqs. (9), (10), which use 0 and 2 s.
 struct Band {
   double low = 0, high = 2;
   bool percent = false;
 };
 
-/// CTRLED with its band elsewhere.
+/// CTRLED with another band.
 struct BandRow {
   Band band;
   StudyRow row;
 };
 
-/// What CTRLED comes to as its band moves, between an L&D and an UNCTRLED that lose as many of the
-/// leaf vertices as in the paper's Table 1: T is fitted to the first, then the leaf scale to the
-/// second. k = 1, R_max and lambda_R as in Table 1.
+/// How CTRLED changes as its band moves, between an L&D and an UNCTRLED that lose as many leaf
+/// vertices as in the paper's Table 1: T is fitted to the first, then the leaf scale to the second.
+/// k = 1; R_max and lambda_R are as in Table 1.
 struct BandStudy {
-  double evenness = 0;                   ///< s / m of N_iso: 0 where all leaves are as dense
+  double evenness = 0;                   ///< s / m of N_iso: 0 if all leaves are equally dense
   double threshold = 0, leaf_scale = 0;  ///< as fitted
-  std::string failure;                   ///< why one of them cannot be, and there are no rows
-  StudyRow isotropic, uncontrolled;      ///< the ends
+  std::string failure;                   ///< why a fit failed; there are no rows then
+  StudyRow isotropic, uncontrolled;      ///< the two ends, as fitted
   std::vector<BandRow> by_share, by_deviation;  ///< from the densest leaves to the sparsest
 };
 
 struct TreeStudy {
-  std::string name;  ///< the file's, without folder and extension; no two of a study are the same
+  std::string name;  ///< the file's name without folder and extension, unique in a study
   std::uint64_t leaves = 0, leaf_vertices = 0;
   std::vector<ReadingStudy> readings;  ///< the project's own reading first
   BandStudy band;
-  /// In the project's own reading: the methods (Table 1), and what T, R_max and lambda_R do
-  /// (Figures 12, 14, 16).
+  /// Pictures in the project's own reading: the methods (Table 1), and the effects of T, R_max and
+  /// lambda_R (Figures 12, 14, 16).
   std::vector<LabelledPicture> methods, figure12, figure14, figure16;
-  std::array<Mesh, 3> meshes;  ///< by Method, of Table 1; empty meshes where there is no surface
+  std::array<Mesh, 3> meshes;  ///< Table 1 by Method; empty meshes where there is no surface
   Box bounds;                  ///< of the leaf vertices
-  double seconds = 0;          ///< what the tree took
+  double seconds = 0;          ///< time spent on the tree
 };
 
 struct Study {
@@ -117,25 +116,26 @@ std::string_view paper_name(Method method);
 /// Every reading: k = 1, 2 by stddev, variance by exact, grid; the project's own first.
 std::array<Reading, 8> readings();
 
-/// What the paper prints: Tables 1 and 2. The curves of its Figures 11, 13 and 15 have no numbers,
-/// and T, R_max and lambda_R of its Table 1 are not said: zero. Source: pp. 54-56; the tree has
-/// kPaperLeafVertices leaf vertices, the CPU is an AMD Athlon 64 3200+ of 2.01 GHz.
+/// The numbers that the paper prints in Tables 1 and 2. The curves of its Figures 11, 13 and 15 are
+/// not given as numbers and stay empty; it does not state T, R_max and lambda_R of Table 1, which
+/// are zero. Source: pp. 54-56; the tree has kPaperLeafVertices leaf vertices, the CPU is an AMD
+/// Athlon 64 3200+ at 2.01 GHz.
 const ReadingStudy& paper_results();
 inline constexpr std::uint64_t kPaperLeafVertices = 52648;
 
-/// What `study` says of the paper's claims, from its tables and figures alone.
-/// @param band where given, claim 2b tells for which bands it holds, which decides nothing.
+/// Verdicts on the paper's claims, from the tables and figures of `study` alone.
+/// @param band if given, claim 2b also says for which bands it holds; the verdict stays the same.
 std::vector<Verdict> verdicts(const ReadingStudy& study, const BandStudy* band = nullptr);
 
-/// The paper's evaluation of one tree under every reading: T 2, R_max 1.5 crown units and
-/// lambda_R 0.7 where they do not vary or are fitted, 64 voxels but for Table 2. Takes tens of
-/// seconds.
-/// @throws Error as extract does, but for an empty surface, which is a result.
+/// The paper's evaluation of one tree under every reading. T is 2, R_max 1.5 crown units and
+/// lambda_R 0.7 unless they vary or are fitted; there are 64 voxels except in Table 2. Takes tens
+/// of seconds.
+/// @throws Error as extract does, except for an empty surface, which is a result.
 TreeStudy study_tree(const LeafSet& leaves, const std::string& name, Device& device,
                      const Progress& progress = {});
 
-/// Writes report.html, with curves where gnuplot is there, and study.json into `folder`, which is
-/// made where it is missing: both or neither.
+/// Writes report.html (with curves if gnuplot is installed) and study.json into `folder`, or
+/// neither. Makes the folder if it is missing.
 /// @throws Error output: which file and why.
 void write_study(const Study& study, const std::filesystem::path& folder);
 

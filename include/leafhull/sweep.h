@@ -20,7 +20,7 @@
 
 namespace leafhull {
 
-/// An option and the values that it takes in a sweep, one or more, as a command line takes them.
+/// An option and the one or more values it takes in a sweep, written as on a command line.
 struct SweptOption {
   const OptionRow* row = nullptr;  ///< of option_table()
   std::vector<std::string> values;
@@ -29,11 +29,11 @@ struct SweptOption {
 /// Whether a sweep may give the option several values: numbers and names of Shape and Resolution.
 bool can_sweep(const OptionRow& row);
 
-/// The values that `text` stands for: a range first:last:step of numbers, the last included where
-/// a step meets it; a list a,b,c; or one value, handed on unread. Numbers that end in % are
-/// values of the row's `percent`, or hundredths of a fraction.
-/// @throws Error usage: no range and no list, a range without values, a step that is not above
-/// zero, a value twice.
+/// Parses the values in `text`: a range first:last:step of numbers, including the last if a step
+/// meets it; a list a,b,c; or one value, passed on unread. Numbers that end in % are values of the
+/// row's `percent`, or hundredths of a fraction.
+/// @throws Error usage: neither a range nor a list, a range without values, a step that is not
+/// above zero, a value given twice.
 SweptOption swept_option(const OptionRow& row, std::string_view text);
 
 /// How many combinations there are.
@@ -43,16 +43,16 @@ std::size_t combination_count(std::span<const SweptOption> swept);
 /// What a sweep extracts.
 struct SweepPlan {
   std::vector<SweptOption> swept;     ///< in the order of option_table(), none twice
-  std::vector<Options> combinations;  ///< every one; the last swept option changes fastest
+  std::vector<Options> combinations;  ///< all of them; the last swept option changes fastest
 };
 
 /// Where a sweep is kept.
 struct SweepFolder {
   std::filesystem::path path;  ///< made where it does not exist
-  bool restart = false;        ///< what another sweep has left there is removed first
+  bool restart = false;        ///< first removes what another sweep left there
 };
 
-/// What a run of a sweep did.
+/// A summary of one run of a sweep.
 struct SweepSummary {
   std::size_t combinations = 0;
   std::size_t resumed = 0;         ///< of these, done by an earlier run
@@ -62,23 +62,23 @@ struct SweepSummary {
   std::vector<std::string> warnings;
 };
 
-/// Called before the first combination with those that an earlier run has done, and as the sweep
-/// goes on.
+/// Called before the first combination with the count that an earlier run finished, and as the
+/// sweep goes on.
 using SweepProgress =
     std::function<void(std::string_view stage, std::size_t done, std::size_t combinations)>;
 
 /// Extracts every combination of `plan` and keeps in `folder`: sweep.csv and sweep.json, a row per
 /// combination in the order of `plan`; plot-OPTION.svg for every swept number; a picture of each
-/// combination in pictures/, and contact-sheet.png with all. A combination is on the disk once it
-/// is done (sweep.jsonl), and a sweep that was cut off goes on there. A row's seconds are what it
-/// took beyond the rows computed before it: neighbours share their work.
+/// combination in pictures/, and contact-sheet.png with all. Each finished
+/// combination is on disk at once (sweep.jsonl), so a sweep that was cut off resumes there. A row's
+/// seconds are the time it added to the rows before it: neighbours share their work.
 /// @throws Error usage: the folder holds another sweep, or files of these names from elsewhere;
 ///         output: which file and why; and what extract_series throws.
 SweepSummary run_sweep(const LeafSet& leaves, const SweepPlan& plan, Device& device,
                        const SweepFolder& folder, const RunDescription& run,
                        const SweepProgress& progress = {});
 
-/// One choice of erosion and dilation, and what it comes to.
+/// One choice of erosion and dilation, and its result.
 struct Suggestion {
   double erosion = 0, dilation = 0;  ///< as asked for
   std::string failure;               ///< why the tree cannot have them; empty where it can
@@ -88,10 +88,10 @@ struct Suggestion {
   std::optional<double> dilated_share;  ///< of the leaves' bounding box, where it has a volume
 };
 
-/// What an artist would choose from: erosions of 2, 12 and 25% by the least dilation that the tree
-/// can have with each, one between, and the most, with R_max from 1.5 to 9 crown units; all else as
-/// in `options`, which hold neither a threshold nor a radius. Where dilations alone would not tell
-/// neighbours in a row apart, their erosions differ too, by 5%.
+/// A range for an artist to choose from: erosions of 2, 12 and 25%, each with the least dilation
+/// that the tree can have, the most, and one between, for R_max from 1.5 to 9 crown units. All else
+/// is as in `options`, which hold neither a threshold nor a radius. If dilations alone would not
+/// tell neighbours in a row apart, their erosions differ too, by 5%.
 struct Suggestions {
   std::vector<Suggestion> choices;  ///< the dilation changes fastest
   Picture strip;                    ///< a labelled picture of each choice

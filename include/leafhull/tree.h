@@ -18,7 +18,7 @@ struct Image {
   int width = 0;
   int height = 0;
   std::vector<std::uint8_t> rgba;
-  std::string name{};  ///< of its file or in the tree's; or none
+  std::string name{};  ///< its file's name, or its name in the tree file; or none
   bool empty() const { return rgba.empty(); }
 };
 
@@ -28,7 +28,7 @@ enum class Wrap { repeat, clamp, mirror };
 struct Material {
   std::string name;
   AlphaMode alpha_mode = AlphaMode::opaque;
-  double alpha_cutoff = 0.5;                    ///< of `mask`; 0..1
+  double alpha_cutoff = 0.5;                    ///< for `mask`; 0..1
   std::array<float, 4> base_color{1, 1, 1, 1};  ///< linear, multiplies the image
   int base_color_image = -1;                    ///< into TreeModel::images, -1: none
   Wrap wrap_u = Wrap::repeat, wrap_v = Wrap::repeat;
@@ -40,7 +40,7 @@ struct Primitive {
   int material = -1;             ///< into TreeModel::materials, -1: none
   std::vector<Vec3f> positions;  ///< finite
   std::vector<Vec3f> normals;    ///< as many as positions, or none
-  std::vector<Vec2f> uvs;  ///< for base_color_image, its texture transform applied; v down; or none
+  std::vector<Vec2f> uvs;  ///< into base_color_image, texture transform applied; v is down; or none
   std::vector<Vec3f> colors;  ///< linear, multiply the base colour; as many as positions, or none
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< every index is below positions.size()
 };
@@ -53,7 +53,7 @@ inline constexpr Transform kIdentity{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}}
 struct TreeNode {
   std::string name;
   int parent = -1;  ///< into TreeModel::nodes, -1: none
-  int level = 0;    ///< of detail, as MSFT_lod or an LOD group tells it: 0 the finest, or not told
+  int level = 0;    ///< level of detail from MSFT_lod or an LOD group; 0: the finest, or unknown
 };
 
 /// A primitive placed in the scene.
@@ -72,14 +72,14 @@ struct TreeModel {
   std::vector<Primitive> primitives;
   std::vector<TreeNode> nodes;
   std::vector<Instance> instances;
-  std::vector<std::string> warnings;  ///< what was passed over, one line each
+  std::vector<std::string> warnings;  ///< one line for each thing that was skipped
 };
 
 /// The axis of a file that points up in the world.
 enum class Up { y, z };
 
 struct ReadOptions {
-  std::optional<Up> up;        ///< empty: the file's own word, else y
+  std::optional<Up> up;        ///< empty: as the file says, else y
   bool allow_outside = false;  ///< textures and buffers may lie outside of the file's folder
 };
 

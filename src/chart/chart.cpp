@@ -16,12 +16,12 @@
 namespace leafhull {
 namespace {
 
-constexpr std::size_t kIntervals = 10;     // between the markers of a line of many points
-constexpr std::size_t kMarkedPoints = 21;  // up to which every point has its marker
+constexpr std::size_t kIntervals = 10;     // between the markers of a line with many points
+constexpr std::size_t kMarkedPoints = 21;  // up to this many, every point has a marker
 constexpr std::string_view kFonts = "'Open Sans', 'Segoe UI', Helvetica, Arial, sans-serif";
 
-/// How the lines of one name look. Colours of Okabe and Ito, neighbours far apart in lightness;
-/// their yellow is too pale on white.
+/// How the lines of one name look. The colours are Okabe and Ito's, ordered so that neighbours
+/// differ in lightness, without their yellow, which is too pale on white.
 struct Look {
   std::string_view color;
   int point;
@@ -44,7 +44,7 @@ std::string number(double value) {
   return text;
 }
 
-/// A text for gnuplot, subscripts and all.
+/// A quoted text for gnuplot, with subscripts.
 std::string quoted(std::string_view label) {
   std::string text = "'";
   for (const TextRun& run : split_subscripts(label)) {
@@ -59,7 +59,7 @@ std::string quoted(std::string_view label) {
   return text + '\'';
 }
 
-/// The same without subscripts, for `noenhanced`.
+/// A quoted text without subscripts, for gnuplot's `noenhanced`.
 std::string quoted_plain(std::string_view label) {
   std::string text = "'";
   for (const char32_t c : decode_utf8(label)) {
@@ -69,7 +69,7 @@ std::string quoted_plain(std::string_view label) {
   return text + '\'';
 }
 
-/// Composes gnuplot's script of one chart.
+/// Composes gnuplot's script for one chart.
 class Script {
  public:
   explicit Script(const Chart& chart) : chart_(chart) {
@@ -177,7 +177,7 @@ class Script {
     add(plots.empty() ? "plot NaN" : plots);
   }
 
-  /// x, y, and y again where a marker stands: at points between gaps, and at all or some others.
+  /// Adds x, y, and y again if the point has a marker: isolated points do, and all or some others.
   void add_points(const ChartLine& line) {
     const std::size_t count = std::min(line.x.size(), line.y.size());
     const auto there = [&](std::size_t i) {
@@ -204,7 +204,7 @@ class Script {
   std::string script_;
 };
 
-/// For a text in XML.
+/// A label escaped for XML.
 std::string escaped(std::string_view label) {
   std::string text;
   for (const char32_t c : decode_utf8(label)) {

@@ -9,7 +9,7 @@ namespace leafhull {
 /// One line of a panel; a value that is not finite is a gap.
 struct ChartLine {
   std::string name;
-  std::vector<double> x, y;  ///< of one length, x ascending
+  std::vector<double> x, y;  ///< of equal length, x ascending
 };
 
 /// Lines over one vertical axis, which starts at zero.
@@ -24,7 +24,7 @@ struct Chart {
   std::vector<ChartPanel> panels;
 };
 
-/// Whether the program that draws charts is there.
+/// Whether gnuplot, which draws charts, is installed.
 bool can_draw_charts();
 
 /// The chart as an SVG file: the same bytes for the same chart.

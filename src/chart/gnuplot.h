@@ -5,8 +5,7 @@
 
 namespace leafhull {
 
-/// What gnuplot prints for a script. It reads no settings of the user's, and knows the locale of
-/// nobody.
+/// The output of gnuplot for a script. Gnuplot ignores the user's settings and locale.
 /// @throws Error output: gnuplot is missing, or says why it fails.
 std::string run_gnuplot(const std::string& script);
 

@@ -11,9 +11,9 @@ namespace {
 constexpr double kMargin = 10, kGap = 28, kTickGap = 8;
 constexpr double kTitleHeight = 36, kLegendRow = 24, kHeadingHeight = 44, kPanelHeight = 210,
                  kFootHeight = 62;
-constexpr double kCharacter = 0.56;  // the mean width, of the type's size
+constexpr double kCharacter = 0.56;  // the mean width, as a share of the type's size
 
-/// A text that is set smaller where it would be wider than `room`.
+/// A text that is set smaller if it would be wider than `room`.
 ChartText fitted(std::string_view text, double x, double y, double size, double room) {
   const double width = text_width(text, size);
   return {std::string(text), x, y, width > room ? size * room / width : size};
@@ -58,7 +58,7 @@ PanelLayout lay_out_panel(const ChartPanel& panel, double left, double width, do
   return layout;
 }
 
-/// One axis for all panels, marked as the narrowest allows.
+/// One axis for all panels, with as many marks as fit the narrowest.
 Axis shared_axis(const Chart& chart, const std::vector<PanelLayout>& panels) {
   std::vector<double> values;
   double narrowest = kChartWidth;

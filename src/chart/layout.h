@@ -10,7 +10,7 @@
 
 namespace leafhull {
 
-// Pixels. A telephone shows a chart at little more than half its size: hence the large type.
+// Lengths are in pixels. The type is large because a phone shows a chart at about half its size.
 inline constexpr double kChartWidth = 640;
 inline constexpr double kTitleSize = 18, kLabelSize = 16, kTickSize = 15;
 inline constexpr double kSampleLength = 40, kSampleGap = 8;  ///< in the legend, before a name
@@ -29,7 +29,7 @@ struct PanelLayout {
   ChartText heading, foot;
 };
 
-/// Where everything stands: a title, a legend in rows, the panels. From the top left.
+/// The positions of a chart's title, legend in rows and panels, from the top left.
 struct ChartLayout {
   double height = 0;
   ChartText title;
@@ -37,7 +37,7 @@ struct ChartLayout {
   std::vector<PanelLayout> panels;
 };
 
-/// An estimate, as nobody knows the reader's typeface.
+/// An estimate, as the reader's typeface is unknown.
 double text_width(std::string_view label, double size);
 
 /// @param names of the legend

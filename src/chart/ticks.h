@@ -17,13 +17,13 @@ struct Axis {
   std::vector<Tick> ticks;
 };
 
-/// From zero, or from below where there are values below, to a round number at or above all
-/// values. Values that are not finite do not count.
+/// An axis from zero (or from a round number below any negative value) to a round number at or
+/// above all values. Values that are not finite do not count.
 Axis value_axis(const std::vector<double>& values);
 
-/// From the least to the greatest value with some room on both sides, marked at the values
-/// themselves, or at every so many of few, where their texts fit; else at round numbers.
-/// @param characters how many fit side by side along the axis
+/// An axis from the least to the greatest value with some room on both sides. Marks are at the
+/// values, or at every n-th of a few values, if their texts fit; else at round numbers.
+/// @param characters the number of characters that fit along the axis
 Axis parameter_axis(const std::vector<double>& values, double characters);
 
 }  // namespace leafhull

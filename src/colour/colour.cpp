@@ -88,7 +88,7 @@ Vec3f shown_oklab(Vec3d lab) {
   const auto is_shown = [](Vec3f c) {
     return std::min({c.x, c.y, c.z}) >= 0 && std::max({c.x, c.y, c.z}) <= 1;
   };
-  double shown = 0, most = 1;  // a grey always is
+  double shown = 0, most = 1;  // a grey can always be shown
   if (is_shown(with_chroma(1))) shown = 1;
   for (int step = 0; step < 20 && shown < 1; ++step) {
     const double middle = (shown + most) / 2;

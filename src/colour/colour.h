@@ -9,11 +9,11 @@
 
 namespace leafhull {
 
-/// What 0 to 1 of sRGB stands for. Source: IEC 61966-2-1.
+/// The linear value of an sRGB value from 0 to 1. Source: IEC 61966-2-1.
 double linear_of_srgb(double value);
-/// What 8 bits of sRGB stand for.
+/// The linear value of 8 bits of sRGB.
 float linear_of_srgb(std::uint8_t value);
-/// 0 to 1 of sRGB for a linear value, which is brought to 0..1.
+/// The sRGB value, 0 to 1, of a linear value, which is clamped to 0..1.
 double srgb_of_linear(double value);
 
 /// The linear colour of three times 8 bits of sRGB.
@@ -29,18 +29,18 @@ struct Hsv {
   double hue = 0, saturation = 0, value = 0;
 };
 
-/// Of a linear colour, as sRGB shows it.
+/// The Hsv of a linear colour as sRGB shows it.
 Hsv hsv_of(Vec3f linear);
 
-/// Lightness, from 0 to 1, and two axes of hue; colours that look alike lie close, a distance of
-/// 0.02 is just seen. Source: Ottosson, "A perceptual color space for image processing", 2020.
+/// Lightness from 0 to 1 and two axes of hue. Colours that look alike lie close; a distance of 0.02
+/// is just visible. Source: Ottosson, "A perceptual color space for image processing", 2020.
 Vec3d oklab_of(Vec3f linear);
-/// The way back; channels may lie outside of 0..1.
+/// The inverse of oklab_of(); channels may lie outside of 0..1.
 Vec3f linear_of_oklab(Vec3d lab);
-/// The same within 0..1: with less chroma where it has to be.
+/// As linear_of_oklab(), but within 0..1, with less chroma if necessary.
 Vec3f shown_oklab(Vec3d lab);
 
-/// What foliage has whose colour nobody tells; linear.
+/// The colour of foliage if it is unknown; linear.
 inline constexpr Vec3f kLeafGreen{0.13f, 0.3f, 0.07f};
 
 }  // namespace leafhull

@@ -9,17 +9,17 @@
 namespace leafhull {
 namespace {
 
-/// A batch is handed over at some 64 MiB of lists, or at 32 Ki bricks.
+/// A batch is handed over at about 64 MiB of lists, or at 32 Ki bricks.
 constexpr std::size_t kBatchEntries = std::size_t{1} << 24;
 constexpr std::size_t kBatchBricks = std::size_t{1} << 15;
 
-/// What a root block holds of the band.
+/// The part of the band that lies in one root block.
 struct Found {
   BrickList bricks;
   std::vector<InsideBlock> inside;
 };
 
-/// How many of the thresholds are at most `n`.
+/// The number of thresholds that are at most `n`.
 std::size_t up_to(double n, const std::vector<double>& thresholds) {
   return static_cast<std::size_t>(std::upper_bound(thresholds.begin(), thresholds.end(), n) -
                                   thresholds.begin());

@@ -11,11 +11,11 @@ namespace leafhull {
 
 /// Which bricks to evaluate.
 struct BandOptions {
-  /// Each T, ascending; none: every brick that a support reaches.
+  /// The values of T, ascending; none: every brick that a support reaches is found.
   std::vector<double> thresholds = {};
   int falloff = 2;  ///< k
   int margin = 1;   ///< voxels by which a block is grown before it is decided
-  /// Blocks that lie outside of it are passed over.
+  /// Blocks outside this box are skipped.
   std::optional<SampleBox> range = {};
 };
 
@@ -24,7 +24,7 @@ struct BandOptions {
 using BandVisitor = std::function<void(const BrickList& bricks, double done)>;
 
 /// Finds the bricks that one of the surfaces N = T may cross, in batches of bounded size, and
-/// returns the blocks that are proven inside, each with the highest T of which that is proven. The
+/// returns the blocks that are proven inside, each with the highest T for which this holds. The
 /// order of bricks and blocks depends on the lattice alone. SPEC: 5.
 std::vector<InsideBlock> find_band(const KernelSet& kernels, const BandOptions& options,
                                    const BandVisitor& visit);

@@ -31,15 +31,15 @@ std::size_t child_index(Coord cell) {
   return (along(b.x) * kBricksAlong + along(b.y)) * kBricksAlong + along(b.z);
 }
 
-/// Of a cell in its brick's bits.
+/// The bit of a cell within its slab of the brick's bits.
 std::uint64_t bit_of(Coord cell) {
   return std::uint64_t{1} << ((cell.y & 7) * kBrickEdge + (cell.z & 7));
 }
 
-using Slab = std::uint64_t;  // of one x
+using Slab = std::uint64_t;  // the cells of a brick at one x
 constexpr Slab kFirstZ = 0x0101010101010101, kLastZ = kFirstZ << 7;
 
-// A slab's cells moved by one, those of the neighbouring slab coming in.
+// The cells of a slab shifted by one; those of the neighbouring brick come in.
 Slab up_z(Slab here, Slab below) { return (here & ~kLastZ) << 1 | (below & kLastZ) >> 7; }
 Slab down_z(Slab here, Slab above) { return (here & ~kFirstZ) >> 1 | (above & kFirstZ) << 7; }
 Slab up_y(Slab here, Slab below) { return here << 8 | below >> 56; }
@@ -138,7 +138,7 @@ std::vector<CellBits> BrickGrid::crossed(float threshold) const {
              : brick == kInside ? ~Slab{0}
                                 : 0;
     };
-    /// Corners of all cells with one x: any inside, all inside.
+    /// For all cells at one x, whether any corner is inside and whether all are.
     const auto corners = [&](int x) {
       const auto along_z = [&](int by) {
         const Slab here = slab(x, by, 0), next = down_z(here, slab(x, by, 1));

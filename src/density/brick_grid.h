@@ -20,22 +20,22 @@ struct BrickGrid {
   static constexpr int kChildren = 64;  ///< bricks of a root, z fastest
 
   Coord low, size;                     ///< roots: the first, and how many along each axis
-  std::vector<std::int32_t> roots;     ///< or the first of its children; z fastest
-  std::vector<std::int32_t> children;  ///< or an evaluated brick, by its order in the field
+  std::vector<std::int32_t> roots;     ///< kOutside, kInside or its first child; z fastest
+  std::vector<std::int32_t> children;  ///< kOutside, kInside or a brick's index in the field
   std::vector<float> samples;          ///< N, kBrickSamples to a brick
-  /// By brick: the cells in which the surface is drawn, those that it crosses on the lattice and
-  /// their neighbours; and the same with one more round of neighbours.
+  /// By brick: `drawn` has the cells in which the surface is drawn, which are those that it crosses
+  /// on the lattice and their neighbours; `near` adds one more round of neighbours.
   std::vector<CellBits> drawn, near;
 
-  /// Draws all of the surface that the lattice sees.
+  /// Draws the whole surface that the lattice resolves.
   /// @throws Error usage where the field is spread over too many root blocks.
   explicit BrickGrid(const Field& field);
 
-  /// What holds a cell.
+  /// What holds a cell: kOutside, kInside or a brick's index in the field.
   std::int32_t content(Coord cell) const;
 
-  /// Draws only the surface in the cells `kept` and around, and none in those of `dropped` that are
-  /// not kept.
+  /// Draws the surface only in and around the cells `kept`, and never in cells of `dropped` that
+  /// are not kept.
   void draw_only(std::span<const Coord> kept, std::span<const Coord> dropped);
 
  private:

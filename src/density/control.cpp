@@ -16,8 +16,8 @@ namespace {
 /// A radius is never below this share of R_max. SPEC: 1.
 constexpr double kSmallestRadius = 1e-3;
 
-/// A share of the mean. Leaf area whose N_iso deviates by less is even: what deviates is the ripple
-/// of its parts, which control must not enlarge.
+/// A share of the mean of N_iso. A smaller spread counts as even: it is only the ripple between the
+/// parts of leaves, which control must not amplify.
 constexpr double kLeastSpread = 0.15;
 
 std::string text_of(const BandEnd& end) {
@@ -36,7 +36,7 @@ std::string text_of(const BandEnd& end) {
   throw Error(ErrorCode::usage, text, "Give both ends in percent, or both as deviations.");
 }
 
-/// A threshold over the density of a sheet that it keeps whole.
+/// The highest threshold that keeps a sheet whole, as a share of the sheet's density.
 constexpr double kBelowSheet = 0.6;
 
 Kernel kernel_at(const LeafPoint& leaf, Vec3d radii, int falloff) {
@@ -167,8 +167,8 @@ Kernel controlled_kernel(const LeafPoint& leaf, float density, const DensityStat
 
 namespace {
 
-/// T that takes in filled crowns for a coverage, where most leaves are on them; none below 0.95.
-/// `densities` are sorted.
+/// The T that encloses filled crowns for a coverage, if most leaves lie on them; none if `coverage`
+/// is below 0.95. `densities` are sorted.
 std::optional<double> around_solids(std::span<const WeightedDensity> densities, double coverage) {
   std::uint64_t all = 0, in_solids = 0, up_to = 0;
   for (const WeightedDensity& d : densities) {

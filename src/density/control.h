@@ -14,14 +14,14 @@
 
 namespace leafhull {
 
-/// An end of the band between isotropic kernels and those of their leaves: so many spreads above
-/// the mean density, or the density that a percentage of the leaves does not exceed.
+/// An end of the band between isotropic kernels and those with their leaf's shape: a number of
+/// spreads above the mean density, or the density that a percentage of the leaves does not exceed.
 struct BandEnd {
   std::optional<double> deviations, percent;
   auto operator<=>(const BandEnd&) const = default;
 };
 
-/// How kernels are controlled. As in Options.
+/// How kernels are controlled; the members are those of Options.
 struct ControlOptions {
   Method method = Method::controlled;
   double flatness = 1;  ///< lambda_R
@@ -43,7 +43,7 @@ DensityStatistics density_statistics(std::span<const LeafPoint> leaves,
 /// The density that a share of the leaf area, from 0 to 1, does not exceed.
 using DensityQuantile = std::function<double(double share)>;
 
-/// The same from a mean, a variance and quantiles.
+/// Density statistics from a mean, a variance and quantiles.
 /// @throws Error usage: p1 above p2.
 DensityStatistics band(double mean, double variance, const DensityQuantile& quantile,
                        const ControlOptions& options);
@@ -54,44 +54,43 @@ DensityStatistics band(double mean, double variance, const DensityQuantile& quan
 std::vector<Kernel> isotropic_kernels(std::span<const LeafPoint> leaves, double radius_max,
                                       int falloff);
 
-/// The kernels of the chosen method: isotropic, the leaf's own radii, or between the two by the
-/// density at each leaf point; none above R_max. `isotropic_density` has one value per leaf point;
-/// `radius_max` is in model units. Source: Eqs. (7), (8).
+/// The kernels of the chosen method. Their radii are R_max, the leaf's own, or between the two by
+/// the density at each leaf point; none exceeds R_max. `isotropic_density` has one value per leaf
+/// point; `radius_max` is in model units. Source: Eqs. (7), (8).
 std::vector<Kernel> controlled_kernels(std::span<const LeafPoint> leaves,
                                        std::span<const float> isotropic_density,
                                        const DensityStatistics& statistics, double radius_max,
                                        const ControlOptions& options);
 
-/// One of them, for a leaf point with N_iso = `density` there.
+/// The controlled kernel of one leaf point, where N_iso = `density`.
 Kernel controlled_kernel(const LeafPoint& leaf, float density, const DensityStatistics& statistics,
                          double radius_max, const ControlOptions& options);
 
 /// The share of anisotropy at density n, 0 at p1 and below to 1 at p2 and above. Source: Eq. (8).
 double anisotropy(double n, const DensityStatistics& statistics);
 
-/// A density, and how much it counts: whole numbers, whose sums do not depend on their order.
+/// A density and its weight, a whole number so that sums do not depend on their order.
 struct WeightedDensity {
   float density;
   std::uint64_t weight = 1;
-  bool in_solid = false;  ///< on the surface of a crown that is filled
+  bool in_solid = false;  ///< on the surface of a filled crown
 };
 
-/// N is 1 on a sheet of leaf that lies alone, and at a T next to that the surface would be a film
-/// with holes. So where most of the area above T is above it by less than a fifth, as on closed
-/// crowns: 0.6 of what that area has in the middle, which does not tear it. A crown that is filled
-/// is not torn. `densities` come back sorted.
+/// N is 1 on a lone sheet of leaf, so at a T close to that the surface would be a film with holes.
+/// If most of the area above T exceeds it by less than a fifth, as on closed crowns, returns 0.6 of
+/// the median density of the area above T, which tears no sheet. Filled crowns do not tear and do
+/// not count. Sorts `densities`.
 std::optional<double> below_film(std::vector<WeightedDensity>& densities, double threshold);
 
-/// T for a coverage of leaf area, `threshold` being its quantile, such that sheets of leaf are not
-/// torn: below a film, and where nearly all leaves are asked for, 0.98 or more, at most 0.6. The
-/// surface of a filled crown has about one density, so that its quantiles are about the same; where
-/// most leaves are on such, a coverage of 0.95 takes in all that has 0.27 of the density that half
-/// of them have, one of 0.98 what has 0.24, one of 0.99 what has 0.12. `densities` come back
-/// sorted.
+/// T for a coverage of leaf area whose quantile is `threshold`, lowered so that sheets of leaf are
+/// not torn: T stays below a film, and is at most 0.6 for a coverage of 0.98 or more. A filled
+/// crown has about one density over its surface, so its quantiles say little. If most leaves lie on
+/// filled crowns, T is at most 0.27 of their median density for a coverage of 0.95, 0.24 for 0.98,
+/// and 0.12 for 0.99. Sorts `densities`.
 double clear_of_sheets(std::vector<WeightedDensity>& densities, double threshold, double coverage);
 
-/// T such that the fraction `coverage` of the densities is at least T: halfway between the two
-/// neighbours in rank, so that rounding does not move a leaf vertex across.
+/// The T that the fraction `coverage` of the densities reaches. It lies halfway between two
+/// densities adjacent in rank, so that rounding moves no leaf vertex across it.
 double threshold_for_coverage(std::span<const float> density, double coverage);
 
 }  // namespace leafhull

@@ -58,9 +58,8 @@ class Descent {
     double low = 0, high = 0;
   };
 
-  /// From the octants of `root` downwards: calls visit(block, ranks, bounds), and goes on to the
-  /// octants of a block above brick size where it answers true. Octants come in lexicographic
-  /// order.
+  /// Calls visit(block, ranks, bounds) for the octants of `root` in lexicographic order. Where it
+  /// returns true for a block larger than a brick, descends to that block's octants.
   template <class Visit>
   void from(Coord root, Visit&& visit) {
     const Vec3d low = to_vec3d(root) - Vec3d(1, 1, 1) * margin_;

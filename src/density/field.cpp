@@ -68,7 +68,7 @@ void Field::raise(std::span<const BrickPart> parts, std::span<const Block> block
   add_inside(inside);
 }
 
-/// Before what at() shares is altered.
+/// Copies a grid that at() shares. Call this before altering the grid.
 void Field::own_grid() {
   if (grid_.use_count() == 1) return;
   const auto own = std::make_shared<Grid>(Grid{grid_->negated->deepCopy(), grid_->bricks});

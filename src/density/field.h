@@ -14,7 +14,7 @@ namespace leafhull {
 /// A bit per sample of a brick: a word per x, bit 8 y + z.
 using SampleBits = std::array<std::uint64_t, kBrickEdge>;
 
-/// Some samples of an evaluated brick, by its place in bricks_of().
+/// Some samples of an evaluated brick, which is known by its index in bricks_of().
 struct BrickPart {
   std::size_t brick;
   SampleBits samples;
@@ -31,23 +31,22 @@ class Field {
   /// Takes blocks that are proven inside, disjoint from each other and from the bricks.
   void add_inside(std::span<const InsideBlock> blocks);
 
-  /// The same samples with the surface at another of the thresholds that they were evaluated for.
+  /// The same samples with the surface at another threshold that they were evaluated for.
   Field at(double threshold) const;
 
   /// Raises samples that are below T, and blocks that are neither evaluated nor inside, to the
-  /// lowest value inside, for this threshold alone. Where fields share a grid, the others keep what
-  /// they have.
+  /// lowest value inside, for this threshold alone. Fields that share the grid do not change.
   void raise(std::span<const BrickPart> parts, std::span<const Block> blocks);
 
   const Lattice& lattice() const { return lattice_; }
   double threshold() const { return threshold_; }  ///< T
 
-  /// Where the surface is in the grid of -N (density/field_grid.h): N >= T is -N < iso_value().
+  /// The surface's value in the grid of -N (density/field_grid.h): N >= T is -N < iso_value().
   float iso_value() const;
-  /// What OpenVDB keeps of it, for those who include density/field_grid.h.
+  /// The OpenVDB grid, for files that include density/field_grid.h.
   struct Grid;
   const Grid& grid() const { return *grid_; }
-  /// What is proven inside.
+  /// The blocks that are proven inside.
   std::vector<Block> inside() const;
 
   std::size_t sample_count() const;
@@ -63,7 +62,7 @@ class Field {
   std::vector<InsideBlock> inside_;
 };
 
-/// The lowest value of a sample inside, which stands for what is proven inside.
+/// The lowest value of a sample inside. It also fills blocks that are proven inside.
 float inside_value(double threshold);
 
 }  // namespace leafhull

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The side of a field that shows OpenVDB, whose headers take seconds to compile.
+// The part of a field that exposes OpenVDB, whose headers take seconds to compile.
 #pragma once
 
 #include <openvdb/openvdb.h>
@@ -19,8 +19,8 @@ struct Field::Grid {
   std::vector<Brick*> bricks;
 };
 
-/// -N in voxels from the anchor, the sign that OpenVDB's mesher asks for: what is below the
-/// iso-value is inside. Evaluated samples are active, what is proven inside is tiles.
+/// -N in voxels from the anchor. OpenVDB's mesher needs this sign: values below the iso-value are
+/// inside. Evaluated samples are active; blocks proven inside are tiles.
 inline const openvdb::FloatGrid& negated_grid(const Field& field) { return *field.grid().negated; }
 
 /// The evaluated bricks, leaf nodes of negated_grid(), in the order of their evaluation.

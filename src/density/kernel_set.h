@@ -15,21 +15,21 @@ class KernelSet {
  public:
   /// No kernels.
   KernelSet() = default;
-  /// `hash` is over the centres of `kernels`, `falloff` the k that they are summed with.
+  /// `hash` is over the centres of `kernels`; they are summed with k = `falloff`.
   KernelSet(std::span<const Kernel> kernels, std::shared_ptr<const SpatialHash> hash,
             const Lattice& lattice, int falloff);
-  /// Of kernels that are on the lattice already, by rank in `hash`; none has a radius above `reach`
-  /// voxels. Without radii().
+  /// Takes kernels that are on the lattice already, by rank in `hash`; none has a radius above
+  /// `reach` voxels. radii() stays empty.
   KernelSet(std::vector<LatticeKernel> kernels, std::shared_ptr<const SpatialHash> hash,
             const Lattice& lattice, double reach);
 
   const Lattice& lattice() const { return lattice_; }
   const SpatialHash& hash() const { return *hash_; }
-  /// By rank.
+  /// The kernels by rank.
   std::span<const LatticeKernel> kernels() const { return kernels_; }
-  /// The largest radius of all, voxels.
+  /// The largest radius of all kernels, voxels.
   double reach() const { return reach_; }
-  /// The largest radius of each, voxels, by rank.
+  /// The largest radius of each kernel, voxels, by rank.
   std::span<const float> radii() const { return radii_; }
 
   /// Replaces `ranks` by those of all kernels whose centre is within reach of the box [low, high]

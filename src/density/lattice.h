@@ -28,7 +28,7 @@ struct Block {
   int edge = kBrickEdge;
 };
 
-/// Samples, or the cells above them: from `low` up to and without `high`.
+/// Samples, or the cells above them: [low, high) along each axis.
 struct SampleBox {
   Coord low, high;
   bool meets(const Block& block) const {
@@ -38,14 +38,14 @@ struct SampleBox {
   }
 };
 
-/// A block that is proven to be inside of N = threshold.
+/// A block that is proven to lie inside N = threshold.
 struct InsideBlock {
   Block block;
   double threshold;
 };
 
 /// The global lattice of integer multiples of the voxel size. Stages compute relative to an anchor,
-/// a lattice point near the tree, so that a far tree loses no digits. SPEC: 5.
+/// a lattice point near the tree, so that a tree far from the origin loses no digits. SPEC: 5.
 struct Lattice {
   double voxel_size = 1;        ///< h, model units, > 0
   Vec3<std::int64_t> anchor{};  ///< a multiple of kRootEdge along each axis

@@ -11,19 +11,19 @@ namespace leafhull {
 
 /// A kernel in lattice units, as the device reads it (`Kernel` of density.clh): with
 /// d = p - cell - offset and U upper triangular D(p) = (h - |U d|^2)^k where |U d|^2 <= h. That is
-/// w (1 - xi)^k for h = w^(1/k) and |U d|^2 = h xi, so that a weight costs no product in a sum. U
-/// has the same U^T U as the axes over their radii (Eq. 3), h times, in fewer products.
+/// w (1 - xi)^k for h = w^(1/k) and |U d|^2 = h xi, so that a weight costs no product in a sum.
+/// U^T U is h times that of the axes over their radii (Eq. 3), in fewer products.
 struct LatticeKernel {
   Coord cell;                    ///< holds the centre
   Vec3f offset;                  ///< of the centre in its cell, [0, 1)
   float xx, xy, xz, yy, yz, zz;  ///< U, row by row, sqrt(h) / voxels; xx, yy, zz > 0
-  float top;                     ///< h, the root of the weight: 1 where the weight is
+  float top;                     ///< h, the root of the weight: 1 if the weight is 1
 };
 static_assert(sizeof(LatticeKernel) == 52);
 
-// N is summed in floats, here and on the device. Bounds on xi give way by more than the rounding of
-// a position (a share of the box, as thin kernels magnify it, and of how far kernels are) and of
-// xi. All roundings of h - |U d|^2 are shares of h and of |U d|^2, so the slack of xi is one of h.
+// N is summed in floats, here and on the device. Bounds on xi are widened by more than the rounding
+// of xi and of a position (a share of the box, which thin kernels magnify, and of the distance to
+// kernels). All roundings of h - |U d|^2 are shares of h and of |U d|^2, so xi's slack is one of h.
 inline constexpr float kPositionSlack = 1e-5f;
 inline constexpr float kDistanceSlack = 4e-7f;
 inline constexpr float kXiSlack = 1e-4f;
@@ -46,26 +46,26 @@ inline KernelForm form_of(const Kernel& kernel) {
           over(normal, kernel.radius_normal)};
 }
 
-/// A kernel around `centre`, model units, without its form.
+/// A kernel around `centre` (model units) whose form is not set.
 inline LatticeKernel to_lattice(Vec3d centre, float top, const Lattice& lattice) {
   const Vec3d local = lattice.local(centre);
   const Coord cell = cell_of(local);
   return {cell, Vec3f(local - to_vec3d(cell)), 0, 0, 0, 0, 0, 0, top};
 }
 
-/// By how much U is larger than for a weight of 1; from the rounded h, so that a support keeps its
+/// The factor by which a weight enlarges U; taken from the rounded h, so that a support keeps its
 /// radii.
 inline double growth_of(float top) { return std::sqrt(static_cast<double>(top)); }
 
-/// A sphere.
+/// A kernel with radius `radius` (model units) in every direction.
 inline LatticeKernel to_lattice(Vec3d centre, double radius, float top, const Lattice& lattice) {
   LatticeKernel local = to_lattice(centre, top, lattice);
   local.xx = local.yy = local.zz = static_cast<float>(growth_of(top) * lattice.voxel_size / radius);
   return local;
 }
 
-/// U comes from the axes by Gram-Schmidt on their columns, the R of a QR decomposition: unlike a
-/// Cholesky factor of U^T U it keeps its digits where a kernel is thin.
+/// U is the R of a QR decomposition, by Gram-Schmidt on the columns of the axes: unlike a Cholesky
+/// factor of U^T U it keeps its digits for thin kernels.
 inline LatticeKernel to_lattice(Vec3d centre, const KernelForm& form, float top,
                                 const Lattice& lattice) {
   LatticeKernel local = to_lattice(centre, top, lattice);
@@ -85,7 +85,7 @@ inline LatticeKernel to_lattice(Vec3d centre, const KernelForm& form, float top,
   return local;
 }
 
-/// `falloff`: k, which the root of the weight depends on.
+/// `falloff` is k, which determines the root of the weight.
 inline LatticeKernel to_lattice(const Kernel& kernel, const Lattice& lattice, int falloff) {
   const float top = falloff_root(kernel.weight, falloff);
   return is_isotropic(kernel)

@@ -15,7 +15,7 @@ namespace leafhull {
 namespace {
 
 constexpr std::size_t kGroup = sizeof(Floats) / sizeof(float);
-/// From what is searched, voxels.
+/// A distance in voxels that is beyond every search.
 constexpr float kFarAway = 1e15f;
 
 }  // namespace
@@ -27,7 +27,7 @@ struct alignas(32) KernelGroups::Group {
   Floats reached;  // the square of U d at which the support ends, rounding included
 };
 
-/// Eight boxes, those around the centres of a group each.
+/// Eight boxes, each around the centres of one group.
 struct alignas(32) NearKernels::Boxes {
   Floats low_x, low_y, low_z, high_x, high_y, high_z;
 };
@@ -57,7 +57,7 @@ KernelGroups::~KernelGroups() = default;
 
 namespace {
 
-/// The lanes of a truth, a bit each.
+/// A bit for each lane that is true.
 ALWAYS_INLINE unsigned bits_of(Ints truth) {
 #ifdef __SSE__
   using Half = float __attribute__((vector_size(16)));
@@ -84,8 +84,8 @@ constexpr auto kSetBits = [] {
   return numbers;
 }();
 
-/// Writes `first` plus the number of each lane that holds to `list`, where eight may be written:
-/// how many do.
+/// Writes `first` plus the number of each true lane to `list`, which has room for eight. Returns
+/// how many are true.
 ALWAYS_INLINE std::size_t list_lanes(Ints truth, std::uint32_t first, std::uint32_t* list) {
   const unsigned bits = bits_of(truth);
   const Ints numbers = std::bit_cast<Ints>(kSetBits[bits]) + static_cast<std::int32_t>(first);
@@ -93,7 +93,7 @@ ALWAYS_INLINE std::size_t list_lanes(Ints truth, std::uint32_t first, std::uint3
   return static_cast<std::size_t>(std::popcount(bits));
 }
 
-/// The least (or the largest, whatever `choose` takes) of each of eight vectors.
+/// The element of each of eight vectors that `choose` picks: the least or the largest.
 template <class Choose>
 ALWAYS_INLINE Floats fold(const Floats* v, Choose&& choose) {
   const auto halves = [&](Floats a, Floats b) {
@@ -104,7 +104,7 @@ ALWAYS_INLINE Floats fold(const Floats* v, Choose&& choose) {
                 halves(halves(v[4], v[5]), halves(v[6], v[7])));
 }
 
-/// Eight groups' centres from `origin`, and the boxes around them.
+/// The centres of the chosen groups, counted from `origin`, and the boxes around them.
 template <class Group, class Centres, class Boxes>
 FOR_EVERY_VECTOR_WIDTH void place(const Group* groups, std::span<const std::uint32_t> chosen,
                                   Coord origin, Centres* centres, Boxes* boxes) {
@@ -192,7 +192,7 @@ void NearKernels::load(Coord origin, const LocalBox& box) {
 }
 
 void NearKernels::append_reaching(const LocalBox& box, std::vector<std::uint32_t>& ranks) {
-  near_.resize(gathered_.size() + kGroup);  // what is written before it is known to count
+  near_.resize(gathered_.size() + kGroup);  // entries are written before it is known if they count
   near_.resize(list_near(boxes_.data(), gathered_.size(), box, reach_ * (1 + kXiSlack) + slack_,
                          near_.data()));
   const Vec3f half =

@@ -28,10 +28,10 @@ class KernelGroups {
   std::unique_ptr<Group[]> groups_;
 };
 
-/// The kernels near a place: first their groups, then the kernels of those that are near.
+/// Finds the kernels near a place: first the groups that are near, then kernels in these groups.
 class NearKernels {
  public:
-  /// `groups`: of the kernels of `set`.
+  /// `groups` holds the kernels of `set`.
   NearKernels(const KernelSet& set, const KernelGroups& groups);
   ~NearKernels();
   NearKernels(NearKernels&&) noexcept;

@@ -9,7 +9,7 @@
 namespace leafhull {
 namespace {
 
-/// The rounding of a sum of many terms, none below 0, as a share of it whatever their weights.
+/// A bound on the rounding of a sum of non-negative terms, as a share of it whatever their weights.
 double rounding(std::size_t terms) { return 1e-5 + 1.2e-7 * static_cast<double>(terms); }
 
 struct Outcome {
@@ -63,7 +63,7 @@ void OctantLists::narrow(std::span<const LatticeKernel> kernels,
                          int falloff) {
   Outcome outcome;
   for (int octant = 0; octant < 8; ++octant) {
-    // One to spare: a rank is written before it is known to count.
+    // One more than needed: a rank is written before it is known whether it counts.
     if (lists_[octant].size() <= ranks.size()) lists_[octant].resize(2 * ranks.size() + 1);
     outcome.lists[octant] = lists_[octant].data();
   }

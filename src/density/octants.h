@@ -33,7 +33,7 @@ class OctantLists {
   std::span<const std::uint32_t> list(int octant) const {
     return std::span(lists_[octant]).first(sizes_[octant]);
   }
-  /// Bounds on N, as summed in floats in any way, over an octant.
+  /// Bounds on N over an octant, valid for any order of summing in floats.
   double low(int octant) const { return low_[octant]; }
   double high(int octant) const { return high_[octant]; }
 

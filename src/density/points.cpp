@@ -16,10 +16,10 @@
 namespace leafhull {
 namespace {
 
-/// Points whose kernels are gathered together, about.
+/// About how many points have their kernels gathered together.
 constexpr std::size_t kClusterPoints = 256;
 constexpr std::size_t kLeastChunk = 8;
-/// What a batch should hold: 2 MiB of ranks, and no more chunks than one launch takes.
+/// The size of a batch: 2 MiB of ranks, and no more chunks than one launch takes.
 constexpr std::size_t kChunkEntries = std::size_t{1} << 19;
 constexpr std::size_t kBatchClusters = (std::size_t{1} << 15) / (kClusterPoints / kLeastChunk);
 
@@ -97,7 +97,7 @@ LocalBox box_of(std::span<const Member> members) {
   return box;
 }
 
-/// Where points in `box` may be asked about.
+/// The box in which points of `box` may be evaluated.
 LocalBox reach_of(const LocalBox& box, Within within) {
   if (within == Within::point) return box;
   const auto below = [](Vec3f p) {
@@ -112,8 +112,8 @@ class Search {
   Search(const KernelSet& set, const KernelGroups& groups, Within within)
       : near_(set, groups), within_(within) {}
 
-  /// The cluster's chunks go to `batch` from `chunk` on, their lists to `ranks`, from which they
-  /// count.
+  /// Writes the cluster's chunks to `batch` from `chunk` on and their lists to `ranks`; chunks
+  /// index into `ranks`.
   template <class T>
   void operator()(std::span<const Vec3<T>> points, const Cluster& cluster, std::size_t chunk,
                   PointBatch& batch, std::vector<std::uint32_t>& ranks) {
@@ -172,7 +172,7 @@ class Search {
   std::size_t chunk_ = 0;
 };
 
-/// Replaces `batch` by the chunks of `clusters`. `lists` is room to work in.
+/// Replaces `batch` by the chunks of `clusters`. `lists` is scratch space.
 template <class T>
 void search(std::span<const Vec3<T>> points, std::span<const Cluster> clusters,
             tbb::enumerable_thread_specific<Search>& searches,
@@ -215,7 +215,7 @@ void find_near(const KernelSet& set, std::span<const Vec3<T>> points, Within wit
   if (clusters.empty()) return;
   const KernelGroups groups(set.kernels());
   tbb::enumerable_thread_specific<Search> searches([&] { return Search(set, groups, within); });
-  // Should every kernel reach every point: at most 64 MiB of ranks, or one cluster.
+  // Even if every kernel reaches every point, a batch has at most 64 MiB of ranks or one cluster.
   constexpr std::size_t kMostEntries = std::size_t{1} << 24;
   std::size_t group = std::clamp<std::size_t>(
       kMostEntries / (chunks_of(kClusterPoints, chunk_points) * set.kernels().size() + 1), 1, 64);

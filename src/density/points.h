@@ -17,20 +17,20 @@ inline constexpr int kFrameEdge = 16;
 /// Points that are evaluated together, as the device reads it (`Chunk` of points.cl).
 struct PointChunk {
   Coord origin;                  ///< of the frame that holds them
-  std::uint32_t first = 0, end;  ///< in PointBatch::kernels, the ranks of those that may reach them
+  std::uint32_t first = 0, end;  ///< into PointBatch::kernels: those that may reach the points
 };
 static_assert(sizeof(PointChunk) == 20);
 
 /// Points in chunks; a chunk that is not full repeats a point.
 struct PointBatch {
-  std::size_t chunk_points = 0;  ///< to each
+  std::size_t chunk_points = 0;  ///< points per chunk
   std::vector<PointChunk> chunks;
   std::vector<std::uint32_t> kernels;  ///< ascending in each chunk
-  std::vector<std::uint32_t> index;    ///< into the points asked about
+  std::vector<std::uint32_t> index;    ///< into the points to evaluate
   std::vector<float> x, y, z;          ///< offsets from the frame's origin, voxels
 };
 
-/// Where a point may be asked about: where it is, or anywhere in its cell.
+/// Where a point may be evaluated: at its position, or anywhere in its cell.
 enum class Within { point, cell };
 
 /// Finds the kernels near each of `points` (voxels from the anchor) and hands them over, in batches

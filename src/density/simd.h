@@ -5,22 +5,22 @@
 #include <bit>
 #include <cstdint>
 
-/// Before a function: a copy of it for wider vectors, chosen when the program is loaded, which is
-/// before the thread sanitizer is up.
+/// Put before a function, compiles a second copy for wider vectors. The copy is chosen when the
+/// program is loaded, which is too early for the thread sanitizer.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_THREAD__)
 #define FOR_EVERY_VECTOR_WIDTH __attribute__((target_clones("default", "avx2")))
 #else
 #define FOR_EVERY_VECTOR_WIDTH
 #endif
 
-// What takes vectors is inlined: no vector crosses a call.
+// Functions that take vectors are inlined, so no vector crosses a call.
 #pragma GCC diagnostic ignored "-Wpsabi"
 #define ALWAYS_INLINE [[gnu::always_inline]] inline
 
 namespace leafhull {
 
 using Floats = float __attribute__((vector_size(32)));
-/// Of a comparison: -1 where it holds, else 0.
+/// The result of a comparison: -1 in lanes where it holds, else 0.
 using Ints = std::int32_t __attribute__((vector_size(32)));
 
 ALWAYS_INLINE Floats positive(Floats a) { return a > 0.0f ? a : Floats{}; }

@@ -74,7 +74,7 @@ SpatialHash::SpatialHash(std::span<const Vec3d> centres, const Lattice& cells) :
     std::copy_n(leaves[i]->buffer().data(), Leaf::SIZE, nodes_[i].end.begin());
     const auto& indices = leaves[i]->indices();
     std::copy(indices.begin(), indices.end(), order_.begin() + nodes_[i].first);
-    // Within a cell the partitioner keeps no promise.
+    // The partitioner promises no order within a cell.
     for (int cell = 0; cell < static_cast<int>(Leaf::SIZE); ++cell) {
       std::sort(order_.begin() + nodes_[i].begin_of(cell), order_.begin() + nodes_[i].end_of(cell));
     }

@@ -18,7 +18,7 @@ class SpatialHash {
   /// `cells`: a lattice whose voxels are the hash's cells, anchored near the kernels; cells of the
   /// size of a support suit. At most 2^32 - 1 kernels.
   SpatialHash(std::span<const Kernel> kernels, const Lattice& cells);
-  /// Of the centres alone, model units.
+  /// Takes centres only, model units.
   SpatialHash(std::span<const Vec3d> centres, const Lattice& cells);
   ~SpatialHash();
   SpatialHash(SpatialHash&&) noexcept;

@@ -39,13 +39,13 @@ std::string lower(std::string text) {
 void bound_pocl_threads(int threads) {
   if (threads <= 0) return;
   const std::string count = std::to_string(threads);
-  for (const char* name : {"POCL_MAX_PTHREAD_COUNT", "POCL_CPU_MAX_CU_COUNT"}) {  // before, since 4
+  for (const char* name : {"POCL_MAX_PTHREAD_COUNT", "POCL_CPU_MAX_CU_COUNT"}) {  // PoCL < 4, >= 4
     const char* bound = std::getenv(name);
     if (!bound || bound != count) setenv(name, count.c_str(), 1);
   }
 }
 
-/// Major and minor version of "OpenCL 1.2 ...".
+/// Whether a version such as "OpenCL 1.2 ..." is 1.2 or later.
 bool at_least_1_2(const std::string& version) {
   int major = 0, minor = 0;
   return std::sscanf(version.c_str(), "OpenCL %d.%d", &major, &minor) == 2 &&
@@ -76,7 +76,7 @@ Found describe(const cl::Platform& platform, const cl::Device& device) {
   return {info, device};
 }
 
-/// A device whose driver fails to describe it.
+/// A device that its driver fails to describe.
 Found unanswering(const cl::Device& device, const cl::Error& error) {
   DeviceInfo info;
   info.name = "unknown";
@@ -90,7 +90,7 @@ std::vector<Found> find_devices() {
   try {
     cl::Platform::get(&platforms);
   } catch (const cl::Error&) {
-    return found;  // the loader's way to say that there is none
+    return found;  // the loader reports that there is no platform
   }
   for (const cl::Platform& platform : platforms) {
     std::vector<cl::Device> devices;
@@ -245,7 +245,7 @@ bool Device::may_overlap() const {
 }
 
 std::future<Device> open_device(const DeviceOptions& options, int falloff) {
-  // Here, since no thread may write the environment while another reads it.
+  // This must happen here: no thread may write the environment while another reads it.
   bound_pocl_threads(options.threads);
   const auto when = options.threads == 1 ? std::launch::deferred : std::launch::async;
   return std::async(when, [options, falloff] {

@@ -14,7 +14,7 @@ extern const std::string_view kernel_source_points;
 
 namespace {
 
-/// One program of all kernels: what a build costs PoCL hardly depends on what is in it.
+/// One program with all kernels: in PoCL, the cost of a build hardly depends on its size.
 cl::Program::Sources sources(bool vector) {
   const std::string_view density =
       vector ? kernel_source_density_vector : kernel_source_density_work_item;

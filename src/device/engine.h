@@ -30,7 +30,7 @@ void set_arguments(cl::Kernel& kernel, const Arguments&... arguments) {
 struct Device::Engine {
   DeviceInfo info;
   int threads = 0;           ///< 0: all cores
-  unsigned float_lanes = 0;  ///< of the device's own vectors
+  unsigned float_lanes = 0;  ///< floats in the device's native vectors
   cl::Device device;
   cl::Context context;
   cl::CommandQueue queue;
@@ -40,8 +40,8 @@ struct Device::Engine {
   /// True for the variant with explicit vectors.
   bool vector() const { return info.variant == "vector"; }
 
-  /// Points that share a list of kernels (points.cl): the lanes of its widest vectors. Wider ones
-  /// would cost more than they save: a list grows with its points.
+  /// The number of points that share a list of kernels (points.cl): the lanes of its widest
+  /// vectors. More would cost more than they save, as a list grows with its points.
   std::size_t chunk_points() const { return vector() && float_lanes >= 16 ? 16 : 8; }
 
   /// Whether the device works in the host's memory, so that buffers need no copies.
@@ -55,14 +55,14 @@ struct Device::Engine {
   cl::Kernel kernel(const char* name, const std::string& program,
                     const cl::Program::Sources& sources, const std::string& options);
 
-  /// What every kernel of the density is built with: the constants that the host has too.
+  /// Build options of every density kernel: the constants that it shares with the host.
   static std::string density_options(int falloff);
 
   /// The density kernel `name` for a falloff.
   /// @throws Error device, as build.
   cl::Kernel kernel(const char* name, int falloff);
 
-  /// Runs `work`, for one thread at a time, OpenCL's exceptions told in our words.
+  /// Runs `work` for one thread at a time and turns OpenCL's exceptions into Error.
   template <class Work>
   auto run(const char* what, Work&& work) {
     const std::lock_guard alone(busy);
@@ -77,8 +77,8 @@ struct Device::Engine {
     }
   }
 
-  /// A buffer over host values, in place where the device shares the host's memory. OpenCL has no
-  /// empty buffers: no values give one byte.
+  /// A buffer over host values, in place if the device shares the host's memory. OpenCL has no
+  /// empty buffers, so an empty span gives one byte.
   template <class T>
   cl::Buffer buffer(std::span<T> values, cl_mem_flags access) const {
     if (values.empty()) return cl::Buffer(context, access, 1);
@@ -94,7 +94,7 @@ struct Device::Engine {
     return buffer(std::span<const T>(values), CL_MEM_READ_ONLY);
   }
 
-  /// Waits for the device and makes what it wrote visible in `values`.
+  /// Waits for the device and makes its results visible in `values`.
   template <class T>
   void fetch(const cl::Buffer& buffer, std::span<T> values) {
     if (values.empty()) return;

@@ -26,14 +26,14 @@ class Evaluator {
   /// kernel-sample pairs that were evaluated.
   std::uint64_t sample(const BrickList& bricks, std::span<float> samples);
 
-  /// Points to a chunk of the batches below.
+  /// Points per chunk of the batches below.
   std::size_t chunk_points() const;
 
   /// N at the points of a batch, in the order of batch.index.
   std::vector<float> density(const PointBatch& batch);
 
   /// Moves the points of a batch onto N = threshold and returns the normals there, zero where the
-  /// gradient vanishes. No steps: only the normals.
+  /// gradient vanishes. With 0 steps it only returns the normals.
   struct Normals {
     std::vector<float> x, y, z;
   };

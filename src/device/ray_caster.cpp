@@ -14,7 +14,7 @@ extern const std::string_view kernel_source_rays;
 namespace {
 
 constexpr std::size_t kGroup = 16;
-// Groups of one launch, below the number from which PoCL compiles a kernel again.
+// Groups per launch, below the number at which PoCL compiles a kernel again.
 constexpr std::size_t kGroupsPerLaunch = 1 << 15;
 
 std::string closest_options(bool sampled, int lanes, int falloff) {
@@ -25,7 +25,7 @@ std::string closest_options(bool sampled, int lanes, int falloff) {
 }  // namespace
 
 struct RayCaster::Impl {
-  /// What a kernel reaches, voxels from the lattice's anchor, as the device reads it.
+  /// The ball that a kernel reaches, voxels from the lattice's anchor, as the device reads it.
   struct alignas(16) Ball {
     Vec3f centre;
     float radius;
@@ -66,7 +66,7 @@ struct RayCaster::Impl {
     });
   }
 
-  /// Runs the kernel `name` on all rays, `per_item` to a work-item. Its arguments are the grid,
+  /// Runs the kernel `name` on all rays, `per_item` per work-item. Its arguments are the grid,
   /// then `own`, then the number of rays, the rays and the results.
   template <class Result, class... Arguments>
   void cast(const char* name, int per_item, std::span<const VoxelRay> rays,

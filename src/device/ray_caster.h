@@ -21,13 +21,13 @@ static_assert(sizeof(VoxelRay) == 24);
 
 /// Where a ray meets the surface.
 struct VoxelHit {
-  float distance;  ///< voxels; infinite where it does not
+  float distance;  ///< voxels; infinite if it does not meet it
   Vec3f gradient;  ///< of N, up to a positive factor
 };
 static_assert(sizeof(VoxelHit) == 16);
 
-/// Rays against the surface N = T on a device, no polygons. Every call returns when its results are
-/// there; results depend on the rays and their order alone.
+/// Casts rays at the surface N = T on a device, without polygons. Every call returns when its
+/// results are there; they depend on the rays and their order alone.
 class RayCaster {
  public:
   /// N comes from the kernels near each brick: `lists` has the bricks of the grid in their order.
@@ -43,9 +43,9 @@ class RayCaster {
   /// follow each other should be neighbours: a CPU takes sixteen together.
   void closest(std::span<const VoxelRay> rays, std::span<VoxelHit> hits);
 
-  /// How much of a light each ray of length `reach` voxels does not get, 0..1: the highest of
-  /// saturate((N - T) / soft) along it, N taken from the samples. A `soft` near 0 makes shadows; T
-  /// ambient occlusion.
+  /// The share of light, 0..1, that is blocked along each ray of length `reach` voxels: the highest
+  /// saturate((N - T) / soft), with N taken from the samples. A `soft` near 0 gives shadows, a
+  /// `soft` of T ambient occlusion.
   void blocked(std::span<const VoxelRay> rays, float soft, float reach, std::span<float> blocked);
 
  private:

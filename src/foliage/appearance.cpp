@@ -15,20 +15,22 @@ namespace leafhull {
 namespace {
 
 constexpr std::size_t kMostParts = 12;
-/// Colours in Oklab nearer than this are one colour of the thing.
+/// Colours closer than this in Oklab count as one.
 constexpr double kOneColour = 0.11;
-/// Spread within triangles below this: a palette, or vertex colours; above it, a photograph.
+/// A spread of colour within triangles below this means a palette or vertex colours; above it, a
+/// photograph.
 constexpr double kPaletteSpread = 0.03 * 0.03;
 /// A piece with at least this share cut away has holes.
 constexpr double kHoles = 0.02;
 
-/// Colours that speak this much for leaves or against them are enough.
+/// A colour with this much evidence for or against leaves decides alone.
 constexpr double kTelling = 1;
-/// A piece of so many triangles, this share of its area of either colour, is of both.
+/// A piece is mixed if it has at least this many triangles and this share of its area in each of
+/// the two colours.
 constexpr std::size_t kMixedTriangles = 100;
 constexpr double kMixedShare = 0.04;
 
-/// Groups colours: those near to an earlier one are one with it. The largest areas come first.
+/// Groups colours: one near an earlier colour joins its class. The largest areas must come first.
 class ColourClasses {
  public:
   std::uint8_t of(Vec3d colour) {
@@ -45,7 +47,7 @@ class ColourClasses {
     }
     return static_cast<std::uint8_t>(nearest);
   }
-  /// Whether the colour tells what has it.
+  /// Whether the colour alone tells leaves from other things.
   bool tells(std::uint8_t number) const { return classes_[number].tells; }
 
  private:
@@ -56,7 +58,7 @@ class ColourClasses {
   std::vector<Class> classes_;
 };
 
-/// Numbers from the greatest area to the least.
+/// Indices from the greatest area to the least.
 std::vector<std::uint32_t> by_area(const std::vector<double>& areas) {
   std::vector<std::uint32_t> order(areas.size());
   std::iota(order.begin(), order.end(), 0u);
@@ -81,8 +83,8 @@ std::vector<bool> mixed_pieces(const Surface& surface) {
   return mixed;
 }
 
-/// The class of each triangle by what differs most plainly: holes, then colour, then form where
-/// the colour does not tell.
+/// The class of each triangle by what differs most plainly: holes, then colour, then form if the
+/// colour does not decide.
 std::vector<std::uint8_t> classes_of(const Surface& surface, bool has_colour) {
   const std::size_t count = surface.areas.size();
   double area = 0, with_holes = 0, spread = 0;
@@ -95,7 +97,7 @@ std::vector<std::uint8_t> classes_of(const Surface& surface, bool has_colour) {
   const bool is_palette = spread <= kPaletteSpread * area;
   const std::vector<bool> mixed = mixed_pieces(surface);
 
-  // What has one colour: a triangle, or a piece with a photograph on it.
+  // The unit of colour is a triangle, or a whole piece if it shows a photograph.
   ColourClasses colours;
   std::vector<std::uint8_t> colour_of(count), colour_of_piece(surface.pieces.size());
   std::vector<double> areas;

@@ -8,7 +8,7 @@
 
 namespace leafhull {
 
-/// What the pieces of a part are: the share of its area in pieces of each form.
+/// The forms of a part's pieces, as the shares of its area in pieces of each form.
 struct Forms {
   double flat = 0;  ///< leaves, cards
   double tube = 0;  ///< trunks, branches, skeletons of them
@@ -20,17 +20,17 @@ struct Forms {
 /// or of one form.
 struct Appearance {
   std::uint32_t primitive = 0;
-  double area = 0;  ///< world, one side, of the first instance
+  double area = 0;  ///< of the first instance, one side, world units squared
   Vec3f colour{};   ///< linear, mean of what is visible
   bool has_colour = false;
   double cut = 0;  ///< share of its area that the texture's alpha cuts away
   Forms forms{};
-  std::size_t pieces = 0;   ///< that hang together
-  double piece_length = 0;  ///< longest side of its pieces' boxes, mean by area, over a tree's
+  std::size_t pieces = 0;   ///< connected pieces
+  double piece_length = 0;  ///< longest side of pieces' boxes, mean by area, over the tree's size
   Vec3d centre{};           ///< mean by area, world
 };
 
-/// The looks of a primitive and, where there is more than one, which of them each triangle has.
+/// The appearances in a primitive and, if there are several, the one that each triangle has.
 struct Appearances {
   std::vector<Appearance> parts;
   std::vector<std::uint8_t> part_of;  ///< by triangle; empty: all of the first

@@ -50,14 +50,14 @@ class Names {
   }
 
  private:
-  /// Whether `node` or one above fits the last part of a path, and those above it the rest.
+  /// Whether `node` or an ancestor fits the last part of a path, and its ancestors the rest.
   bool hangs_from(int node, const std::string& path) const {
     const auto slash = path.rfind('/');
     const std::string last = slash == path.npos ? path : path.substr(slash + 1);
     std::size_t steps = 0;
     for (; node >= 0 && steps <= tree_.nodes.size(); node = tree_.nodes[node].parent, ++steps) {
       if (!fits(last, tree_.nodes[node].name)) continue;
-      // The lowest that fits leaves most to the rest.
+      // The lowest node that fits leaves the most ancestors for the rest.
       return slash == path.npos || hangs_from(tree_.nodes[node].parent, path.substr(0, slash));
     }
     return false;
@@ -68,7 +68,8 @@ class Names {
   std::array<const std::string*, 3> names_{};  ///< material, mesh, node
 };
 
-/// Where two classes of distances, weighted by area, part best: the largest variance between them.
+/// The threshold that best parts distances, weighted by area, into two classes: the variance
+/// between these is largest.
 /// Source: Otsu, "A threshold selection method from gray-level histograms", 1979.
 double parting(std::vector<std::pair<double, double>> distances) {
   std::ranges::sort(distances);

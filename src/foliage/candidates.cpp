@@ -17,10 +17,10 @@ namespace {
 
 // What a word is worth, by where it stands.
 constexpr double kMaterialName = 4, kImageName = 2, kPlaceName = 2.5, kParentName = 2;
-/// A material whose name says this much is not looked at for other things in it.
+/// A material whose name is this certain is not searched for other things.
 constexpr double kSaysWhatItIs = 0.7;
 
-/// Signs of names, each read once.
+/// Reads the signs of names, each once.
 class NameReader {
  public:
   explicit NameReader(const TreeModel& tree) : tree_(tree), above_(tree.nodes.size()) {}
@@ -31,7 +31,7 @@ class NameReader {
     return known->second;
   }
 
-  /// Of the nearest node above, that says something.
+  /// The sign of the nearest ancestor whose name says something.
   const NameSign& above(int node) {
     static const NameSign nothing;
     if (node < 0 || static_cast<std::size_t>(node) >= above_.size()) return nothing;
@@ -64,12 +64,12 @@ const Material* material_of(const TreeModel& tree, const Primitive& primitive) {
   return primitive.material < 0 ? nullptr : &tree.materials[primitive.material];
 }
 
-/// Of the names of mesh and node, the one that says more.
+/// The stronger sign of the names of mesh and node.
 const NameSign& place_sign(const NameSign& mesh, const NameSign& node) {
   return std::abs(node.weight) > std::abs(mesh.weight) ? node : mesh;
 }
 
-/// Whether a transform is finite and flattens nothing.
+/// Whether a transform is finite and invertible.
 bool stands(const Transform& m) {
   const auto row = [&](int i) { return Vec3d{m[i][0], m[i][1], m[i][2]}; };
   const double volume = dot(row(0), cross(row(1), row(2)));
@@ -105,7 +105,7 @@ class CandidateFinder {
     std::vector<std::uint32_t> instances;
   };
 
-  /// Instances of one primitive whose names say the same.
+  /// Groups the instances of each primitive whose names say the same.
   void group(const Levels& levels) {
     using Key = std::tuple<std::uint32_t, std::string_view, const NameSign*, bool>;
     std::map<Key, std::size_t> known;
@@ -155,7 +155,7 @@ class CandidateFinder {
     }
   }
 
-  /// The first instance that shows something, or simply the first.
+  /// The first instance with a finite, invertible transform, or simply the first.
   const Instance& first_standing(const std::vector<std::size_t>& groups) const {
     for (const std::size_t g : groups) {
       for (const std::uint32_t i : groups_[g].instances) {
@@ -184,7 +184,7 @@ class CandidateFinder {
                    is_plain ? Cutting::none : Cutting::where_it_differs);
   }
 
-  /// The parts of a primitive, for each group of its instances.
+  /// Describes the parts of a primitive for each group of its instances.
   void describe_all(std::uint32_t primitive, const std::vector<std::size_t>& groups,
                     Appearances looks) {
     const Primitive& source = tree_.primitives[primitive];
@@ -240,7 +240,7 @@ class CandidateFinder {
     return candidate;
   }
 
-  /// Of the middle of a part, mean over its instances, in the box of everything.
+  /// The mean height of a part's middle over its instances, in the box of everything.
   double height_of(const Group& group, Vec3d centre, const Transform& first) const {
     const double rise = all_.high.y - all_.low.y;
     if (!(rise > 0)) return 0.5;
@@ -254,7 +254,7 @@ class CandidateFinder {
     return count > 0 ? (sum / static_cast<double>(count) - all_.low.y) / rise : 0.5;
   }
 
-  /// What the names of all things in a file say alike tells none of them apart.
+  /// Drops signs that the names of all things in a file share: they tell nothing apart.
   void drop_common_names() {
     if (found_.list.size() < 2) return;
     for (NameSign Signs::*sign : {&Signs::place, &Signs::above, &Signs::image}) {
@@ -267,7 +267,7 @@ class CandidateFinder {
   }
 
   static void weigh_names(const Signs& signs, Candidate& candidate) {
-    // A material's own name says more of it than where it hangs.
+    // A material's own name says more than the names of the nodes above it.
     const double rest = 1 - 0.5 * std::abs(signs.material.weight);
     const double material = kMaterialName * signs.material.weight;
     const double image = rest * kImageName * signs.image.weight;

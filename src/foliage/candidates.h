@@ -20,7 +20,7 @@ struct Candidate {
   Growth growth = Growth::unknown;  ///< what its names say it is
   std::optional<Vec3f> colour;      ///< linear, mean of what is visible
   double visible = 0;               ///< area that is not cut away, model units squared
-  double height = 0;                ///< of its middle, in the box of everything
+  double height = 0;                ///< the height of its middle in the box of everything
   std::uint32_t primitive = 0;
   std::uint8_t part = 0;
   std::vector<std::uint32_t> instances;  ///< into those given; shared by the parts of a primitive
@@ -33,8 +33,8 @@ struct Candidates {
   WeldedPrimitives welded;
 };
 
-/// Of the instances that `levels` does not leave out. @param looked_at by instance, as the options
-/// ask; a candidate's instances are all or none of them.
+/// Finds candidates among the instances that `levels` keeps. @param looked_at by instance, whether
+/// the options allow it; it is the same for all instances of a candidate.
 Candidates find_candidates(const TreeModel& tree, std::span<const Instance> instances,
                            const Levels& levels, const std::vector<bool>& looked_at);
 

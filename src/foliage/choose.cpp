@@ -15,22 +15,24 @@
 namespace leafhull {
 namespace {
 
-/// What adds up to this is leaves.
+/// Candidates whose evidence adds up to this are leaves.
 constexpr double kLeaves = 1;
-/// Where nothing does, what comes nearest may be, if it adds up to this.
+/// If there are none, the best candidate is taken if its evidence adds up to this.
 constexpr double kPerhaps = -0.5;
-/// What says this much needs no word of doubt; nor does what is passed over below the other.
+/// There is no warning of doubt if all chosen candidates have at least kSure and no rejected one
+/// has more than kSurelyNot.
 constexpr double kSure = 1.8, kSurelyNot = 0.4;
-/// Fruit and the like: less of the area than this, and nothing that names or plainly colours them.
+/// Fruit and the like have less than this share of the area, and neither a name nor a plain colour.
 constexpr double kMinorShare = 0.08;
 
-/// Where the middle of what stands and of what lies at its feet are, in the height of everything.
+/// The middle of a standing tree is above kStanding, that of undergrowth below kLow, as shares of
+/// the height of everything.
 constexpr double kStanding = 0.35, kLow = 0.2;
-constexpr std::size_t kOptions = 3;  // that are offered where nothing is found
+constexpr std::size_t kOptions = 3;  // options to suggest if no leaves are found
 
 bool is_chosen(const Candidate& candidate) { return candidate.told.verdict == LeafVerdict::leaves; }
 
-/// Grass and the like, by name or because it lies at the feet of trees.
+/// Rejects grass and the like, by name or because it lies at the feet of trees.
 void pass_over_undergrowth(std::vector<Candidate>& list) {
   const auto is_tree = [](const Candidate& candidate) {
     return is_chosen(candidate) && candidate.growth != Growth::undergrowth;
@@ -58,7 +60,7 @@ void pass_over_fruit(std::vector<Candidate>& list) {
   }
 }
 
-/// By evidence. True where it is a guess.
+/// Judges candidates by their evidence. Returns true if the result is a guess.
 bool judge(std::vector<Candidate>& list) {
   bool any = false;
   for (Candidate& candidate : list) {
@@ -82,7 +84,7 @@ bool judge(std::vector<Candidate>& list) {
   return false;
 }
 
-/// The candidate passed over that comes nearest to being leaves, or null.
+/// The rejected candidate that comes nearest to being leaves, or null.
 const Candidate* second_reading(const std::vector<Candidate>& list) {
   double area = 0;
   for (const Candidate& candidate : list) area += candidate.told.area;
@@ -96,7 +98,7 @@ const Candidate* second_reading(const std::vector<Candidate>& list) {
   return second;
 }
 
-/// The least that speaks for anything chosen of some size.
+/// The least evidence of any sizeable chosen candidate.
 double least_sure(const std::vector<Candidate>& list) {
   double area = 0;
   for (const Candidate& candidate : list) area += is_chosen(candidate) ? candidate.told.area : 0;
@@ -144,7 +146,7 @@ void mark(const TreeModel& tree, const Candidates& candidates, LeafChoice& choic
   }
 }
 
-/// Opaque materials whose image has holes where leaves use it.
+/// Cuts out opaque materials whose image has holes where leaves use it.
 void use_alpha(const TreeModel& tree, const Candidates& candidates, LeafChoice& choice) {
   choice.cut_out.resize(tree.materials.size());
   for (const Candidate& candidate : candidates.list) {

@@ -13,17 +13,17 @@
 namespace leafhull {
 namespace {
 
-constexpr std::size_t kLooksAtImage = 200'000;  // of an image, a primitive
+constexpr std::size_t kLooksAtImage = 200'000;  // samples of the image per primitive
 constexpr double kMostNodes = 64;               // along an axis
 constexpr int kMostPlaces = 16;                 // along a triangle's side
 constexpr std::size_t kMostTones = 4;
-/// In the plane of hues of Oklab: nearer colours are one.
+/// Colours closer than this in Oklab's plane of hues count as one tone.
 constexpr double kOneTone = 0.05;
 /// A tone has at least this share of the leaves.
 constexpr double kLeastShare = 0.03;
 constexpr int kRounds = 8;  // of Lloyd's method
 
-/// How far hues and chromas are apart; how light colours are does not matter.
+/// The distance of two colours in hue and chroma; lightness does not count.
 double hue_distance(Vec3d a, Vec3d b) { return std::hypot(a.y - b.y, a.z - b.z); }
 
 struct Weighed {
@@ -56,7 +56,7 @@ void settle(const std::vector<Weighed>& colours, std::vector<Weighed>& tones) {
 CrownColours::CrownColours(const Box& crown, double mass)
     : low_(crown.low), cell_(std::max(mass, crown.longest_side() / kMostNodes)) {
   const Vec3d size = crown.size();
-  // Two nodes more on either side, as far as `spread` and `around` reach.
+  // Two extra nodes on either side, for the reach of `spread` and `around`.
   const auto count = [&](double side) { return static_cast<std::size_t>(side / cell_) + 6; };
   size_ = {count(size.x), count(size.y), count(size.z)};
   nodes_.resize(size_[0] * size_[1] * size_[2]);
@@ -93,7 +93,7 @@ void CrownColours::put(Vec3d place, Vec3f colour, double area) {
   });
 }
 
-/// In places no farther apart than half a cell.
+/// Puts a triangle's colour at places no farther apart than half a cell.
 void CrownColours::put_triangle(const std::array<Vec3d, 3>& corners, Vec3f colour, double kept) {
   const auto& [a, b, c] = corners;
   const Vec3d u = b - a, v = c - a;
@@ -111,7 +111,7 @@ void CrownColours::put_triangle(const std::array<Vec3d, 3>& corners, Vec3f colou
   }
 }
 
-/// Each node takes in a quarter of either neighbour along each axis.
+/// Mixes a quarter of either neighbour into each node, along each axis.
 void CrownColours::spread() {
   std::size_t step = 1;
   for (const std::size_t size : size_) {

@@ -13,13 +13,13 @@ namespace leafhull {
 /// Tells the colour of a crown's leaves at a place, at the scale of its masses.
 class CrownColours {
  public:
-  /// Nothing where the leaves have one colour, or one that nobody knows.
-  /// @param leaves of the tree's own instances; @param mass how large masses are, model units.
+  /// None if the leaves have a single or unknown colour.
+  /// @param leaves of the tree's own instances; @param mass the size of masses, model units.
   static std::optional<CrownColours> of(const TreeModel& tree, const LeafSet& leaves, double mass);
 
   /// The mean colour of the leaves around a place in model units; linear.
   Vec3f at(Vec3d place) const;
-  /// The colours that are told apart, 2 to 4, the one of most leaves first; linear.
+  /// The 2 to 4 tones of the crown, the one of most leaves first; linear.
   const std::vector<Vec3f>& tones() const { return tones_; }
 
  private:

@@ -10,7 +10,7 @@
 namespace leafhull {
 namespace {
 
-/// Between two corners of a polyline, or at its nearer end.
+/// The value of a polyline at x; outside it, that of the nearer end.
 template <std::size_t N>
 double along(const std::array<std::array<double, 2>, N>& line, double x) {
   if (x <= line[0][0]) return line[0][1];
@@ -22,7 +22,7 @@ double along(const std::array<std::array<double, 2>, N>& line, double x) {
   return line[N - 1][1];
 }
 
-/// Of full colours, by hue: red and orange may be autumn, blue is water and sky.
+/// The evidence of vivid colours by hue: red and orange may be autumn, blue is water or sky.
 constexpr std::array<std::array<double, 2>, 13> kVivid{{{0, 0.8},
                                                         {25, 0.6},
                                                         {45, 1.0},
@@ -36,7 +36,7 @@ constexpr std::array<std::array<double, 2>, 13> kVivid{{{0, 0.8},
                                                         {300, 1.5},
                                                         {345, 1.5},
                                                         {360, 0.8}}};
-/// Of dull ones: bark is brown, stone is grey, shaded leaves are still green.
+/// The evidence of dull colours by hue: bark is brown, stone grey, shaded leaves are still green.
 constexpr std::array<std::array<double, 2>, 11> kDull{{{0, -2},
                                                        {38, -2},
                                                        {55, -0.6},

@@ -13,12 +13,12 @@ namespace {
 struct KindWord {
   std::string_view text;  ///< folded
   LeafKind kind;
-  bool alone = false;  ///< a word of its own: a short one, which others hold by chance
+  bool alone = false;  ///< must stand alone: short words occur in others by chance
 };
 
 using enum LeafKind;
 
-// What hides a word inside of itself stands before it. Sources: dictionaries.
+// A word that contains another one comes before it. Sources: dictionaries.
 constexpr auto kKindWords = std::to_array<KindWord>({
     {"pineapple", broad},   {"oak", broad, true},    {"oaks", broad, true},
     {"maple", broad},       {"palmat", broad},  // Acer palmatum

@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kBillboard = 1000;
 
-/// What a name says about levels: of what, and which.
+/// What a name says about levels of detail: the thing and its level.
 struct LevelName {
   std::string stem;  ///< before the word, folded
   int level = 0;
@@ -46,19 +46,20 @@ std::optional<LevelName> level_in(std::string_view name) {
   return std::nullopt;
 }
 
-/// Things of one stem; nameless levels belong together where they hang from one node.
+/// Levels of the same thing have one stem; levels without a stem belong together if they share a
+/// parent node.
 using Family = std::pair<int, std::string>;
 
-/// Of nodes that another one lists with MSFT_lod, which is finer.
+/// The family of nodes that a finer node lists with MSFT_lod.
 const Family kListed{-2, "MSFT_lod"};
 
 struct Place {
   Family family;
   int level = 0;
-  std::string_view name;  ///< that told it
+  std::string_view name;  ///< the name that gave the level
 };
 
-/// Finds the nearest name above an instance that tells a level, each node looked at once.
+/// Finds the nearest name at or above an instance that gives a level, reading each node once.
 class PlaceFinder {
  public:
   explicit PlaceFinder(const TreeModel& tree) : tree_(tree), known_(tree.nodes.size()) {}
@@ -111,8 +112,8 @@ class PlaceFinder {
   std::vector<Known> known_;
 };
 
-/// Whether what is named a billboard is one, of few triangles beside a tree of many; cards of
-/// leaves are called so too.
+/// Whether things named billboards are such: few triangles beside a tree of many. Cards of leaves
+/// are called billboards too.
 bool has_billboard_of_others(const TreeModel& tree, std::span<const Instance> instances,
                              const std::vector<std::optional<Place>>& places,
                              const std::vector<bool>& looked_at) {
@@ -148,7 +149,7 @@ Levels find_levels(const TreeModel& tree, std::span<const Instance> instances,
     if (is_finest) finest[place.family] = place.name;
     levels[place.family].insert(place.level);
   }
-  // Oak beside Oak_LOD1: what has the stem's own name is the finest.
+  // Oak beside Oak_LOD1: the thing named by the plain stem is the finest.
   std::map<std::string, Family> plain;
   for (const auto& [family, found] : levels) {
     if (family.first < 0 && !family.second.empty() && *found.begin() > 0) {

@@ -17,7 +17,7 @@ struct Levels {
   std::size_t passed_over = 0;    ///< instances
 };
 
-/// @param looked_at by instance, whether it counts at all; what does not is no coarser level.
+/// @param looked_at by instance, whether it counts; others are never marked as coarser.
 Levels find_levels(const TreeModel& tree, std::span<const Instance> instances,
                    const std::vector<bool>& looked_at);
 

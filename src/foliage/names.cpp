@@ -12,7 +12,7 @@ namespace {
 /// How a word must stand in a name.
 enum class Stands {
   anywhere,  ///< also inside of a longer word
-  alone,     ///< as a word of its own: short ones, which others hold by chance
+  alone,     ///< as a word of its own: short words occur in others by chance
 };
 
 struct Word {
@@ -25,8 +25,8 @@ struct Word {
 using enum Growth;
 using enum Stands;
 
-// Colours and seasons hint; what hides a word inside of itself (leafless, Nadelbaum: a conifer)
-// stands before it. Sources: dictionaries, and the names of public models.
+// Colours and seasons only hint. A word that contains another one (leafless; Nadelbaum, a conifer)
+// comes before it. Sources: dictionaries, and the names of public models.
 constexpr auto kWords = std::to_array<Word>({
     {"leafless", wood, -1},
     {"no leaves", wood, -1},
@@ -341,7 +341,8 @@ constexpr std::string_view kPlain =
     "lllnnnnnnnnnoooooooorrrrrrssssss"
     "ssttttttuuuuuuuuuuuuwwyyyzzzzzzs";
 
-/// The next code point of `text`, which is taken off; a byte that is not UTF-8 stands for itself.
+/// Removes the next code point from `text` and returns it; a byte that is not UTF-8 stands for
+/// itself.
 std::uint32_t take_code(std::string_view& text) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   const unsigned char first = byte(0);
@@ -381,7 +382,7 @@ bool is_upper(std::uint32_t c) {
 }
 bool is_digit(std::uint32_t c) { return c >= '0' && c <= '9'; }
 
-/// The letter in lower case and plain, a blank for what is none, 0 for an accent of its own.
+/// The letter in lower case without accent; a blank for other characters, 0 for a lone accent.
 std::uint32_t fold(std::uint32_t c) {
   if (c >= 'A' && c <= 'Z') return c + 32;
   if (is_digit(c) || c < 0x80) return (c >= 'a' && c <= 'z') || is_digit(c) ? c : ' ';
@@ -406,13 +407,13 @@ struct Match {
   std::size_t begin = 0, end = 0;
 };
 
-/// Whether the part of the folded name is bounded by blanks.
+/// Whether a match in the folded name is bounded by blanks.
 bool is_alone(std::string_view name, const Match& match) {
   return (match.begin == 0 || name[match.begin - 1] == ' ') &&
          (match.end == name.size() || name[match.end] == ' ');
 }
 
-/// Every word that the name holds, those inside of a longer one left out, from first to last.
+/// The words found in the name, in order, without those inside a longer one.
 std::vector<Match> matches_in(std::string_view name) {
   std::vector<Match> matches;
   for (const Word& word : kWords) {

@@ -9,7 +9,7 @@
 namespace leafhull {
 namespace {
 
-/// The triangles of the primitive that are leaves, or those that are none.
+/// The triangles of the primitive that are leaves or, if not `leaves`, the others.
 Primitive cut(const Primitive& primitive, const std::vector<bool>& are_leaves, bool leaves) {
   Primitive part = primitive;
   part.triangles.clear();
@@ -19,7 +19,7 @@ Primitive cut(const Primitive& primitive, const std::vector<bool>& are_leaves, b
   return part;
 }
 
-/// The leaves, or all that is none.
+/// The leaves of a tree or, if not `leaves`, everything else.
 TreePart part_of(std::shared_ptr<const TreeModel> tree, const LeafChoice& choice, bool leaves) {
   TreePart part;
   std::map<std::uint32_t, std::uint32_t> known;  // primitives and what is cut out of them

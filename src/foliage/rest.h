@@ -8,17 +8,17 @@
 
 namespace leafhull {
 
-/// A part of a tree: its leaves, or all that is none; coarser levels of detail are left out.
+/// A part of a tree: its leaves or everything else, without coarser levels of detail.
 struct TreePart {
   std::shared_ptr<const TreeModel> model;  ///< the tree, with more primitives where some are cut
   std::vector<Instance> instances;         ///< of its primitives, with triangles
 };
 
-/// What of a tree is no leaf.
+/// Everything in a tree except its leaves.
 /// @param choice of the tree's own instances.
 TreePart rest_of(std::shared_ptr<const TreeModel> tree, const LeafChoice& choice);
 
-/// What of a tree is leaves, as the file draws them.
+/// The leaves of a tree as the file draws them.
 /// @param choice of the tree's own instances.
 TreePart leaves_of(std::shared_ptr<const TreeModel> tree, const LeafChoice& choice);
 

@@ -14,7 +14,7 @@ constexpr int kMostCells = 12;
 
 Vec3f operator*(Vec3f a, Vec3f b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
 
-/// White, and the greys that programs give what nobody has coloured.
+/// Whether a colour is white or a grey that programs use as a default.
 bool is_default(const std::array<float, 4>& color) {
   const auto [low, high] = std::minmax({color[0], color[1], color[2]});
   return high - low < 1e-3f && low > 0.55f;

@@ -7,7 +7,7 @@
 
 namespace leafhull {
 
-/// What a part of a surface shows, mean over its area.
+/// The look of a part of a surface, as means over its area.
 struct Shown {
   Vec3f colour;       ///< linear, of what is not cut away: texture times factor times vertex colour
   double kept = 1;    ///< the share that is not cut away
@@ -23,7 +23,7 @@ class SurfaceColour {
 
   Shown of(std::size_t triangle) const;
 
-  /// Whether anything but the default says what the colour is.
+  /// Whether the colour is more than a program's default.
   bool is_known() const { return is_known_; }
   /// Whether it may differ between triangles.
   bool varies() const { return image_ || !primitive_.colors.empty(); }

@@ -16,9 +16,9 @@
 namespace leafhull {
 namespace {
 
-constexpr std::size_t kSamples = 400'000;  // of an image, a primitive
+constexpr std::size_t kSamples = 400'000;  // of the image, per primitive
 
-/// Over the triangles of a piece.
+/// Sums over the triangles of a piece.
 struct Sums {
   Eigen::Vector3d origin;  ///< a vertex, about which the sums are
   double area = 0, volume = 0, kept = 0, spread = 0;

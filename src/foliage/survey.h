@@ -12,7 +12,7 @@ namespace leafhull {
 
 enum class Form { flat, tube, lobe, slab };
 
-/// Triangles that hang together.
+/// Connected triangles.
 struct Piece {
   double area = 0;
   double kept = 0;    ///< the share of the area that is not cut away
@@ -37,7 +37,7 @@ struct Surface {
   }
 };
 
-/// How large a tree is: as high as everything in the file, unless that lies flat.
+/// The size of a tree: the height of everything in the file, unless that lies flat.
 /// `all`: the box of everything.
 double scale_of(const Box& all);
 

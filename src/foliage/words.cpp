@@ -9,7 +9,7 @@ namespace leafhull {
 namespace {
 
 constexpr std::size_t kMostLabels = 5;
-/// What adds less than this is not worth a word.
+/// Evidence below this is not mentioned.
 constexpr double kWorthAWord = 0.4;
 
 std::string first_name(const LeafCandidate& candidate) {
@@ -19,7 +19,7 @@ std::string first_name(const LeafCandidate& candidate) {
   return {};
 }
 
-/// "colour, shape", what says most first.
+/// "colour, shape", the strongest evidence first.
 std::string reasons(const LeafCandidate& candidate) {
   const LeafEvidence& e = candidate.evidence;
   std::array<std::pair<double, std::string_view>, 5> parts{{{e.name, "name"},
@@ -36,10 +36,10 @@ std::string reasons(const LeafCandidate& candidate) {
   return text;
 }
 
-/// Labels, each once, those past a number only counted.
+/// A list of distinct labels; those past a limit are only counted.
 class List {
  public:
-  /// @param why of the largest of a label is shown.
+  /// @param why is shown for the largest thing of a label.
   void add(const std::string& label, double area, const std::string& why = {}) {
     auto known = std::ranges::find(entries_, label, &Entry::label);
     if (known == entries_.end()) known = entries_.insert(known, {label, why, 0, area});
@@ -76,7 +76,7 @@ class List {
   std::vector<Entry> entries_;
 };
 
-/// A glob that matches `name`: what would be special in it matches any character.
+/// A glob that matches `name`; special characters in it become ?, which matches any.
 std::string glob_of(std::string glob) {
   std::ranges::replace_if(
       glob, [](char c) { return std::string_view("*?[]\\'").find(c) != std::string_view::npos; },

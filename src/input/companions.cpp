@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 constexpr std::array<std::string_view, 6> kTextureFolders{"textures", "texture", "tex",
                                                           "maps",     "images",  "materials"};
 
-/// How many names at the end of a path are looked for.
+/// The number of names at the end of a path that are searched for.
 constexpr std::size_t kMostParts = 6;
 
 std::string lower(std::string text) {
@@ -31,7 +31,7 @@ bool has_drive(std::string_view name) {
   return name.size() > 2 && is_letter(name[0]) && name[1] == ':' && name[2] == '/';
 }
 
-/// With slashes, without a scheme or a drive, no folder's name before a "..".
+/// A normalised path with slashes, without a scheme or a drive.
 fs::path path_of(std::string_view written) {
   std::string name(written);
   std::ranges::replace(name, '\\', '/');
@@ -55,7 +55,7 @@ bool is_file(const fs::path& path) {
   return !error && fs::exists(status) && !fs::is_directory(status);
 }
 
-/// The entry of that name in any case; the exact one first, then the first by name.
+/// The entry of that name in upper or lower case: the exact one, else the first by name.
 std::optional<fs::path> entry_of(const fs::path& folder, const std::string& name) {
   std::error_code error;
   if (fs::exists(folder / name, error)) return folder / name;

@@ -11,12 +11,12 @@
 
 namespace leafhull {
 
-/// The files that a tree file names: textures, buffers, material libraries. Files come from the net
-/// and should not name others of this machine, so that by default only those in the tree file's
-/// folder and below are read.
+/// The files that a tree file names: textures, buffers, material libraries. Tree files come from
+/// the net and should not reach other files of this machine, so by default only those in the tree
+/// file's folder and below are read.
 class Companions {
  public:
-  /// None are read.
+  /// No companion is read.
   Companions() = default;
   Companions(std::filesystem::path tree_file, bool allow_outside);
 
@@ -26,9 +26,9 @@ class Companions {
     std::filesystem::path path;
     std::string note;  ///< how it was found, where that is a guess
   };
-  /// The file of a name as the tree file has it, with slashes of either kind. One that is not there
-  /// is looked for by the end of its path and in the usual folders for textures, in any case: paths
-  /// of other machines and wrong capitals are common.
+  /// Finds the file of a name as the tree file has it, with slashes of either kind. If it is not
+  /// there, it is searched for by the end of its path and in the usual folders for textures,
+  /// ignoring case: paths of other machines and wrong capitals are common.
   /// @throws FileError: it is not there, or lies outside.
   Found find(std::string_view written) const;
 

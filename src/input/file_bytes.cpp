@@ -34,7 +34,7 @@ Bytes read_to_end(const fs::path& path) {
   std::error_code unknown_size;
   const std::uintmax_t expected = fs::file_size(path, unknown_size);
 
-  Bytes bytes(unknown_size ? 0 : expected + 1);  // one more, to see the end
+  Bytes bytes(unknown_size ? 0 : expected + 1);  // one more, to notice the end
   std::size_t length = 0;
   for (;;) {
     if (length == bytes.size()) bytes.resize(length + (1 << 16));

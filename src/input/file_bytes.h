@@ -14,7 +14,7 @@
 
 namespace leafhull {
 
-/// Leaves new bytes as the memory was: a file is read over them.
+/// Leaves new bytes uninitialised, as a file is read into them.
 template <class T>
 struct LeftAsItIs : std::allocator<T> {
   template <class U>
@@ -37,7 +37,7 @@ struct FileError : std::runtime_error {
 
 enum class Pipes { refused, read };
 
-/// The whole of a regular file, or of a pipe where these are read: others may never end.
+/// The whole of a regular file, or of a pipe if those are allowed. Other files may never end.
 /// @throws FileError.
 Bytes read_file(const std::filesystem::path& path, Pipes pipes = Pipes::refused);
 

@@ -12,11 +12,11 @@ namespace leafhull {
 namespace {
 
 struct Foreign {
-  std::string_view extension;  ///< or several, each with a blank before it
+  std::string_view extension;  ///< one or more, each after a blank
   std::string_view magic;      ///< the file's first bytes; or none
   std::string_view name;
   std::string_view import;  ///< Blender's operator; empty: it opens the file itself
-  std::string_view remedy;  ///< where Blender cannot
+  std::string_view remedy;  ///< the advice if Blender cannot open it
 };
 
 constexpr std::array kForeign{
@@ -42,7 +42,7 @@ bool has_extension(const Foreign& foreign, const std::string& extension) {
   return !extension.empty() && list.find(" " + extension + " ") != std::string::npos;
 }
 
-/// As a string of Python within double quotes of a shell.
+/// A name that is safe in a Python string inside a shell's double quotes, else `instead`.
 std::string for_python(const std::string& name, std::string_view instead) {
   const auto is_special = [](unsigned char c) {
     return c < ' ' ||
@@ -51,7 +51,7 @@ std::string for_python(const std::string& name, std::string_view instead) {
   return std::ranges::any_of(name, is_special) ? std::string(instead) : name;
 }
 
-/// Blender's command that makes a .glb of it.
+/// The Blender command that converts the file to .glb.
 std::string conversion(const Foreign& foreign, const std::filesystem::path& path) {
   const std::string file = for_python(path.string(), "FILE");
   const std::string glb = for_python(path.stem().string() + ".glb", "FILE.glb");

@@ -9,13 +9,13 @@
 
 namespace leafhull {
 
-/// A format of tree files that is not read.
+/// A format of tree files that leafhull does not read.
 struct ForeignFormat {
   std::string name;
   std::string remedy;  ///< the command that converts it, or the next step
 };
 
-/// Tells it by its first bytes or its extension.
+/// Recognises such a format by the file's first bytes or its extension.
 std::optional<ForeignFormat> foreign_format(ByteSpan bytes, const std::filesystem::path& path);
 
 }  // namespace leafhull

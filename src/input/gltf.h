@@ -10,7 +10,7 @@
 namespace leafhull {
 
 /// Reads glTF 2.0 from memory, text or binary.
-/// @param name   as messages call the file.
+/// @param name the file's name in messages.
 /// @param companions external buffers and images.
 /// @throws Error input.
 TreeModel read_gltf(ByteSpan bytes, const std::string& name, const Companions& companions);

@@ -136,7 +136,7 @@ std::size_t bytes_at_hand(const GltfFile& file) {
                          [](std::size_t sum, ByteSpan b) { return sum + b.size(); });
 }
 
-/// What elements of an accessor are read into: so many floats or indices, and nothing else.
+/// An element type that accessors are read into: a fixed number of floats or indices.
 template <class Element>
 struct ElementType {
   using Out = float;

@@ -21,8 +21,8 @@ ByteSpan view_bytes(GltfFile& file, int view, const std::string& user);
 ByteSpan buffer_bytes(const GltfFile& file, int buffer, std::size_t offset, std::size_t length,
                       const std::string& place);
 
-/// The elements of an accessor, sparse values put in. Integers become floats, normalised where the
-/// accessor says so. Nothing is allocated before it is known to lie inside the file.
+/// The elements of an accessor with its sparse values. Integers become floats, normalised if the
+/// accessor says so. Memory is allocated only for data that is known to lie inside the file.
 /// @param user what refers to the accessor, for messages.
 /// @throws Error input: no such accessor, another type of elements, or elements outside of a view.
 std::vector<Vec2f> read_vec2(GltfFile& file, int accessor, const std::string& user);
@@ -32,10 +32,10 @@ std::vector<std::array<float, 4>> read_vec4(GltfFile& file, int accessor, const 
 /// Column by column.
 std::vector<std::array<float, 16>> read_mat4(GltfFile& file, int accessor, const std::string& user);
 
-/// The red, green and blue of colours, which may have an alpha too.
+/// The red, green and blue of colours; an alpha is dropped.
 std::vector<Vec3f> read_colors(GltfFile& file, int accessor, const std::string& user);
 
-/// The same for unsigned scalars, one by one or three per triangle.
+/// The elements of an accessor of unsigned scalars, singly or three per triangle.
 std::vector<std::uint32_t> read_indices(GltfFile& file, int accessor, const std::string& user);
 std::vector<std::array<std::uint32_t, 3>> read_triangles(GltfFile& file, int accessor,
                                                          const std::string& user);

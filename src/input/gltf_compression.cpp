@@ -12,7 +12,7 @@
 namespace leafhull {
 namespace {
 
-/// EXT_meshopt_compression of a buffer view. Negative numbers are those that do not fit an int.
+/// EXT_meshopt_compression of a buffer view. Numbers that do not fit in an int are negative.
 struct MeshoptView {
   int buffer, offset, length, stride, count;
   std::string mode, filter;
@@ -32,8 +32,8 @@ MeshoptView meshopt_view(const tinygltf::Value& extension) {
           text(extension, "filter")};
 }
 
-// What meshoptimizer asserts. The least compressed sizes bound the memory by the file's length: two
-// bits for 16 bytes of an attribute, a byte for a triangle or an index.
+// Checks what meshoptimizer only asserts. The least compressed sizes bound memory by the file's
+// length: two bits for 16 bytes of an attribute, a byte for a triangle or an index.
 std::string_view defect(const MeshoptView& view) {
   if (view.offset < 0 || view.length < 0 || view.stride < 0 || view.count < 0) {
     return "lacks a number, or has one that is too large";
@@ -102,7 +102,7 @@ std::vector<Vector> draco_vectors(const GltfFile& file, const draco::Mesh& mesh,
   return vectors;
 }
 
-/// None where the attribute is no colour; its alpha is left out.
+/// The colours of an attribute without alpha; none if it is not a colour.
 std::vector<Vec3f> draco_colors(const draco::Mesh& mesh, int id) {
   const draco::PointAttribute* attribute = mesh.GetAttributeByUniqueId(id);
   if (!attribute || !is_attribute_type(attribute->data_type()) || attribute->num_components() < 3 ||

@@ -14,7 +14,7 @@ namespace {
 
 using nlohmann::json;
 
-// What recurses over the document stays far from the end of the stack.
+// Functions that recurse over the document then stay far from the end of the stack.
 constexpr int kDeepestNesting = 64;
 constexpr std::int64_t kLargestOffset = std::int64_t{1} << 53;  // exact in every JSON reader
 
@@ -54,7 +54,7 @@ constexpr std::array kLists = {"accessors", "bufferViews", "buffers", "cameras",
                                "images",    "materials",   "meshes",  "nodes",
                                "samplers",  "scenes",      "skins",   "textures"};
 
-// Members that tinygltf would read, at a cost or at a risk, for nothing.
+// Members that tinygltf would parse at a cost or risk, though leafhull does not need them.
 constexpr std::array kUnreadMembers = {"animations", "extensions", "extras"};
 
 bool is_read_extension(std::string_view name) {
@@ -135,7 +135,7 @@ class DocumentCheck {
     }
   }
 
-  // tinygltf passes over numbers of the wrong kind and cuts large ones to 32 bits.
+  // tinygltf ignores numbers of the wrong kind and truncates large ones to 32 bits.
   void check_object(json& value, const std::string& place) {
     if (value.is_array()) {
       for (json& element : value) check_object(element, place);
@@ -218,7 +218,7 @@ class DocumentCheck {
     }
   }
 
-  // The compressed data brings its own, and tinygltf refuses accessors without data.
+  // Compressed data has its own indices, and tinygltf rejects accessors without data.
   void take_out_draco_indices() {
     for (json& mesh : document_["meshes"]) {
       if (!mesh.contains("primitives")) continue;

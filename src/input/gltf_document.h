@@ -8,8 +8,7 @@
 namespace leafhull {
 
 /// Parses the JSON of a glTF file and checks what tinygltf does not: the version, the nesting, the
-/// required extensions, and every index, count and offset. What leafhull does not read is taken
-/// out.
+/// required extensions, and every index, count and offset. Removes what leafhull does not read.
 /// @throws Error input.
 nlohmann::json parse_document(std::string_view text, const std::string& file);
 

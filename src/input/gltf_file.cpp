@@ -111,7 +111,7 @@ void list_images(tinygltf::Model& model, const json& images) {
   }
 }
 
-// A camera is asked for by few: whoever does checks it.
+// Few callers ask for cameras; those that do check them.
 void list_cameras(GltfFile& file, const json& cameras) {
   const json::json_pointer type("/type"), angle("/perspective/yfov");
   for (const json& entry : cameras) {
@@ -121,8 +121,8 @@ void list_cameras(GltfFile& file, const json& cameras) {
   }
 }
 
-// tinygltf would load every buffer and image, refuse the fallback buffers of compressed files and
-// read images beyond the end of their buffer: it gets the rest.
+// tinygltf gets the document without buffers and images: it would load them all, reject the
+// fallback buffers of compressed files, and read images beyond the end of their buffer.
 void parse_model(GltfFile& file, json document) {
   document.erase("cameras");
   document.erase("buffers");
@@ -134,7 +134,7 @@ void parse_model(GltfFile& file, json document) {
   if (!good || !error.empty()) file.fail("", printable(error, 300));
 }
 
-/// The bytes of a data URI of whatever media type.
+/// The bytes of a data URI of any media type.
 std::optional<Bytes> decode_data(const std::string& uri) {
   const std::size_t comma = uri.find(',');
   if (comma == std::string::npos) return std::nullopt;
@@ -144,13 +144,13 @@ std::optional<Bytes> decode_data(const std::string& uri) {
   if (!coding.ends_with(";base64")) return Bytes(data.begin(), data.end());
   std::erase_if(data, [](unsigned char c) { return std::isspace(c); });
   std::vector<std::uint8_t> bytes;
-  std::string media_type;  // tinygltf knows some alone
+  std::string media_type;  // tinygltf knows only a few
   const std::string plain = "data:application/octet-stream;base64," + data;
   if (!tinygltf::DecodeDataURI(&bytes, media_type, plain, 0, false)) return std::nullopt;
   return Bytes(bytes.begin(), bytes.end());
 }
 
-/// A query or a fragment belongs to no file, unless one is called so.
+/// Drops a query or fragment from a URI, unless a file's name has it.
 Companions::Found find_uri(const Companions& companions, const std::string& uri) {
   const std::size_t end = uri.find_first_of("?#");
   try {

@@ -17,23 +17,23 @@
 
 namespace leafhull {
 
-/// A camera of the document. A perspective one has an angle of view, bottom to top, in radians.
+/// A camera of the document. A perspective camera has a vertical angle of view in radians.
 struct GltfCamera {
   std::string type;
   double angle = 0;
 };
 
 /// An opened glTF file: its document as tinygltf's types, and its bytes. The document is well typed
-/// and its whole numbers fit an int; where they point to is checked by those who follow them.
+/// and its whole numbers fit in an int; code that follows an index must check it.
 struct GltfFile {
-  std::string name;                ///< as messages call it
+  std::string name;                ///< the file's name in messages
   Companions companions;           ///< external buffers and images
-  std::vector<std::string> notes;  ///< what was guessed and what passed over
+  std::vector<std::string> notes;  ///< what was guessed and what was skipped
   tinygltf::Model model;           ///< its buffers and images hold no data
   std::vector<GltfCamera> cameras;
   std::vector<ByteSpan> buffers;     ///< as many as the document has; empty for a meshopt fallback
   std::vector<Bytes> owned_buffers;  ///< what `buffers` refers to outside the file itself
-  std::map<int, Bytes> decompressed_views;  ///< of EXT_meshopt_compression, as they are asked for
+  std::map<int, Bytes> decompressed_views;  ///< of EXT_meshopt_compression, when first needed
 
   [[noreturn]] void fail(std::string_view place, std::string_view what,
                          std::string_view remedy = kExportAgain) const {
@@ -49,8 +49,9 @@ GltfFile open_gltf(ByteSpan bytes, const std::string& name, const Companions& co
 /// @throws Error input at `place`.
 Bytes load_uri(GltfFile& file, const std::string& uri, const std::string& place);
 
-/// The same for later, on any thread; a file is looked for now. `uri` is the document's own.
-/// @throws Error as above; the function itself FileError.
+/// A function that loads the bytes later, on any thread; the file is searched for now. `uri` is
+/// written as in the document.
+/// @throws Error as load_uri; the returned function throws FileError.
 std::function<Bytes()> uri_loader(GltfFile& file, const std::string& uri, const std::string& place);
 
 /// "accessors[3]"

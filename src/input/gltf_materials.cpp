@@ -42,7 +42,7 @@ Wrap wrap(int mode) {
   return mode == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT ? Wrap::mirror : Wrap::repeat;
 }
 
-// A texture may name one image that every reader knows, or only one that few do.
+// A texture may name an image in a common format, one in a rarer format, or both.
 int source_of(const tinygltf::Texture& texture) {
   if (texture.source >= 0) return texture.source;
   for (const char* name : {"EXT_texture_webp", "KHR_texture_basisu"}) {

@@ -10,7 +10,7 @@
 
 namespace leafhull {
 
-/// How the texture coordinates of a material become those of its image. KHR_texture_transform.
+/// Maps a material's texture coordinates to those of its image, as KHR_texture_transform says.
 struct TextureMapping {
   int set = 0;  ///< n of TEXCOORD_n
   Vec2d offset{}, scale{1, 1};
@@ -20,7 +20,7 @@ struct TextureMapping {
   void apply(std::vector<Vec2f>& uvs) const;
 };
 
-/// Turns the materials of a file into those of a tree, images of base colours included.
+/// Turns the materials of a file into a tree's, including the images of base colours.
 class MaterialReader {
  public:
   MaterialReader(GltfFile& file, TreeModel& tree) : file_(file), tree_(tree) {}
@@ -28,7 +28,7 @@ class MaterialReader {
   /// Reads every material into the tree, without its image.
   void read_all();
 
-  /// The image of a material is looked for when a primitive first asks for its mapping.
+  /// Returns a material's mapping. The first call for a material also searches for its image.
   /// @throws Error input at `user`: no such material.
   TextureMapping use(int material, const std::string& user);
 

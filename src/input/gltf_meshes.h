@@ -22,7 +22,7 @@ struct PlacedMesh {
   int node = 0;
   const std::string& node_name;
   std::optional<std::size_t> copy;  ///< of EXT_mesh_gpu_instancing
-  Transform to_world = kIdentity;   ///< as the file has it, finite or not
+  Transform to_world = kIdentity;   ///< as in the file; may not be finite
 };
 
 /// "nodes[3], EXT_mesh_gpu_instancing, copy 5"
@@ -30,7 +30,7 @@ std::string place_of(const PlacedMesh& placed);
 
 bool is_finite(const Transform& transform);
 
-/// The meshes that the default scene places, each once, and once more for each way it is posed.
+/// The meshes that the default scene places, each once, and again for each pose.
 struct GltfMeshes {
   TreeModel tree;                                        ///< without instances
   std::map<int, std::vector<std::uint32_t>> primitives;  ///< of the tree by the mesh's number, in
@@ -39,9 +39,9 @@ struct GltfMeshes {
 
 using MeshVisitor = std::function<void(const GltfMeshes& meshes, const PlacedMesh& placed)>;
 
-/// Reads the meshes, then shows where they stand, one by one: millions need no memory. Nodes come
-/// in depth-first order. Arguments as of read_gltf.
-/// @param survey where it is given, is shown all of them first.
+/// Reads the meshes, then calls a function with each place, so that millions of places need no
+/// memory. Nodes come in depth-first order. Arguments are as in read_gltf.
+/// @param survey if given, is called with all places first.
 /// @throws Error input.
 GltfMeshes read_gltf_meshes(ByteSpan bytes, const std::string& name, const Companions& companions,
                             const MeshVisitor& visit, const MeshVisitor& survey = {});

@@ -115,7 +115,7 @@ struct Visited {
   int index;
   const tinygltf::Node& node;
   Transform to_world;
-  bool is_hidden;  ///< or a node above it
+  bool is_hidden;  ///< it or a node above it
 };
 
 /// Every node of the scene in depth-first order.

@@ -20,17 +20,17 @@ struct PlacedCamera {
   Transform to_world = kIdentity;
 };
 
-/// How the nodes of the default scene (else of the first, else all nodes) use meshes, and a number
-/// for each: the mesh's own, or one past all of them where it is posed. Hidden nodes stay out, and
-/// are counted in the file's notes.
+/// How the nodes of the default scene (else of the first, else all nodes) use meshes, with a number
+/// for each use: the mesh's own, or a number past all meshes if it is posed. Hidden nodes are left
+/// out and counted in the file's notes.
 /// @throws Error input: nodes that are not a tree; no such mesh or skin.
 std::map<MeshUse, int> mesh_uses(GltfFile& file);
 
-/// Says where each node of the file stands; those that are not in the scene stand at its origin.
+/// The world transform of each node of the file; the identity for nodes outside the scene.
 std::vector<Transform> node_transforms(const GltfFile& file);
 
-/// The same meshes, by their numbers in `uses`, as the nodes place them, in depth-first order, each
-/// copy of EXT_mesh_gpu_instancing for itself. What a skin has posed stands in the world already.
+/// Visits the same meshes, by their numbers in `uses`, as nodes place them, in depth-first order;
+/// copies of EXT_mesh_gpu_instancing come singly. Skinned meshes are in world coordinates already.
 /// @throws Error input, as mesh_uses; the attributes of the copies.
 void place_meshes(GltfFile& file, const std::map<MeshUse, int>& uses,
                   const std::function<void(const PlacedMesh&)>& place);

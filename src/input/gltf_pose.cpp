@@ -29,7 +29,7 @@ double row_times(const std::array<double, 4>& row, Vec3f p) {
 
 Vec3d row_of(const Transform& m, int i) { return {m[i][0], m[i][1], m[i][2]}; }
 
-/// Normals go by the cofactors.
+/// Transforms a normal by the cofactors.
 Vec3f turned(const Transform& m, Vec3f normal) {
   const Vec3d x = row_of(m, 0), y = row_of(m, 1), z = row_of(m, 2), n(normal);
   return Vec3f(normalized(Vec3d(dot(cross(y, z), n), dot(cross(z, x), n), dot(cross(x, y), n))));
@@ -126,7 +126,7 @@ MeshUse use_of(const GltfFile& file, int index) {
     return primitive.attributes.contains("JOINTS_0") &&
            !find_extension(primitive.extensions, "KHR_draco_mesh_compression");
   });
-  if (node.skin < 0 || !has_joints) return use;  // joints that move nothing
+  if (node.skin < 0 || !has_joints) return use;  // a skin moves nothing without joints
   if (!is_index(node.skin, file.model.skins.size())) {
     file.fail(place_of("nodes", index), "there is no " + place_of("skins", node.skin));
   }

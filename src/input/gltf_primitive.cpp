@@ -120,7 +120,7 @@ class PrimitiveReader {
     if (const int accessor = attribute(source_, "COLOR_0"); accessor >= 0) {
       try {
         primitive.colors = read_colors(file_, accessor, place_ + ", COLOR_0");
-      } catch (const Error& error) {  // a tree can do without
+      } catch (const Error& error) {  // a tree can do without colours
         warnings_.push_back(std::string(error.what()) + "; the colours are passed over");
       }
     }

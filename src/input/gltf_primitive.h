@@ -12,8 +12,8 @@
 
 namespace leafhull {
 
-/// The triangles of one primitive of a mesh, without vertices that no triangle uses. Nothing, and a
-/// warning, where it holds no triangles.
+/// The triangles of one primitive of a mesh, without unused vertices. None, with a warning, if it
+/// holds no triangles.
 /// @throws Error input.
 std::optional<Primitive> read_primitive(GltfFile& file, std::size_t mesh, std::size_t primitive,
                                         MaterialReader& materials, const GltfPose& pose,

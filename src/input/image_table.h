@@ -15,11 +15,11 @@ namespace leafhull {
 
 /// Tells where the bytes of a picture are, or why there are none.
 struct ImageSource {
-  std::string name{};   ///< of the picture in the tree; its end tells TGA
-  std::string place{};  ///< as warnings call it
+  std::string name{};   ///< the picture's name in the tree; its extension tells TGA
+  std::string place{};  ///< its name in warnings
   std::string fault{};
-  ByteSpan lent{};                ///< of another, who keeps them until they are decoded
-  std::function<Bytes()> load{};  ///< or what brings them then, on any thread, or throws FileError
+  ByteSpan lent{};                ///< bytes whose owner keeps them until they are decoded
+  std::function<Bytes()> load{};  ///< or loads them then, on any thread; throws FileError
 };
 
 /// Looks for a picture beside the file. It is read later, when it is decoded.
@@ -30,22 +30,21 @@ ImageSource companion_image(const Companions& companions, const std::string& nam
 /// both may name the same picture.
 using ImageNames = std::pair<std::string, std::string>;
 
-/// The pictures of a tree, each once: numbered as they are asked for, then read and decoded on all
-/// threads.
+/// The pictures of a tree, each once: numbered on request, then read and decoded on all threads.
 class ImageTable {
  public:
-  /// A few bytes can hold many pixels: so many bytes of pixels are kept.
+  /// A few bytes can hold many pixels, so at most this many bytes of pixels are kept.
   static constexpr std::size_t kMostBytes = std::size_t{1} << 31;
 
   explicit ImageTable(std::size_t most_bytes = kMostBytes) : most_bytes_(most_bytes) {}
 
-  /// The number in TreeModel::images, which gets an empty image for it. `load` is asked for every
-  /// name that is new.
+  /// The index in TreeModel::images, which gets an empty image for a new picture. `load` is called
+  /// for every new name.
   int number_of(const ImageNames& names, const std::function<ImageSource(const std::string&)>& load,
                 TreeModel& tree);
 
-  /// Fills the images of `tree` in the order of their numbers; its warnings get a line for each
-  /// that cannot be read, or would make all of them larger than is kept.
+  /// Fills the images of `tree` in the order of their numbers. Each one that cannot be read, or
+  /// would exceed the total size, adds a line to its warnings.
   void decode(TreeModel& tree) const;
 
  private:

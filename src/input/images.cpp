@@ -34,7 +34,7 @@ struct Signature {
   std::string_view name;
 };
 
-// stb_image's readers of rarer formats are not meant for files from strangers.
+// stb_image's readers of rarer formats are not safe for untrusted files.
 constexpr std::array kSignatures{
     Signature{0, "\x89PNG", Format::png, "PNG"},
     Signature{0, "\xFF\xD8\xFF", Format::jpeg, "JPEG"},
@@ -59,9 +59,9 @@ const Signature* signature_of(ByteSpan bytes) {
   return found == kSignatures.end() ? nullptr : found;
 }
 
-/// Whether bytes may be TGA, which has no signature, and are enough for its pixels. stb_image
-/// leaves those that are missing as the memory was; where the second byte is larger, it tries the
-/// formats that are not meant for files from strangers.
+/// Whether bytes may be TGA, which has no signature, and suffice for its pixels. stb_image leaves
+/// missing pixels uninitialised; if the second byte is above 1, it tries the formats that are not
+/// safe for untrusted files.
 bool is_tga(ByteSpan bytes) {
   constexpr std::size_t kHeader = 18;
   if (bytes.size() < kHeader || bytes[1] > 1) return false;
@@ -69,7 +69,7 @@ bool is_tga(ByteSpan bytes) {
   const auto bytes_for = [](std::size_t bits) { return (bits + 7) / 8; };
   const std::size_t palette = bytes[1] * number(5) * bytes_for(bytes[7]);
   const std::size_t pixels = number(12) * number(14), pixel = bytes_for(bytes[16]);
-  const bool has_runs = bytes[2] >= 9;  // of 128 pixels at the most
+  const bool has_runs = bytes[2] >= 9;  // runs of at most 128 pixels
   const std::size_t data = has_runs ? (pixels + 127) / 128 * (1 + pixel) : pixels * pixel;
   return kHeader + bytes[0] + palette + data <= bytes.size();
 }
@@ -86,7 +86,7 @@ std::string why_unread(const Signature* signature) {
   return "it is of the format " + std::string(signature->name) + std::string(kRead);
 }
 
-/// Negative, too, is the height of a BMP whose rows begin at the top.
+/// The number of pixels. The height of a BMP whose rows begin at the top is negative.
 std::int64_t pixels_of(const Image& image) {
   return std::abs(std::int64_t{image.width} * image.height);
 }
@@ -138,7 +138,7 @@ bool has_whole_chunks(ByteSpan png) {
   return false;
 }
 
-/// stb_image quotes the file where a chunk is unknown to it: that may be no text at all.
+/// The reason why stb_image failed. It quotes the names of unknown chunks, which may not be text.
 std::string why_stb_failed() {
   const char* told = stbi_failure_reason();
   const std::string reason = told ? printable(told) : "";

@@ -9,14 +9,14 @@
 
 namespace leafhull {
 
-/// A channel of a colour in a file as 0 to 1; 1 for what is no number.
+/// A colour channel from a file, clamped to 0 to 1; 1 if it is not a number.
 inline double share_of(double channel) {
   if (channel < 0) return 0;
   return channel <= 1 ? channel : 1;
 }
 
-/// Decodes PNG (16 bits and palettes too), JPEG, WebP, BMP, or TGA where `name` ends so. Returns an
-/// empty image and sets `reason` where that is not possible.
+/// Decodes PNG (also 16 bits and palettes), JPEG, WebP, BMP, or TGA if `name` ends in .tga. If it
+/// cannot, returns an empty image and sets `reason`.
 Image decode_image(ByteSpan bytes, const std::string& name, std::string& reason);
 
 /// The least and the greatest opacity of an image's texels.
@@ -35,8 +35,8 @@ OpacityRange opacity_range(const Image& image);
 /// material stays opaque and the tree gets a warning.
 void judge_alpha(TreeModel& tree, Material& material);
 
-/// A colour image, or white where it is empty, with the opacity that another shows: in its alpha
-/// where it has one, else in its grey. It has the size of the opacity.
+/// A colour image (white if empty) with the opacity from another image: from its alpha if it has
+/// any, else from its grey. The result has the size of `opacity`.
 Image with_opacity(const Image& colour, Image opacity);
 
 }  // namespace leafhull

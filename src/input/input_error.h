@@ -8,15 +8,15 @@
 
 namespace leafhull {
 
-/// What helps where a file contradicts itself.
+/// The remedy for a file that contradicts itself.
 inline constexpr std::string_view kExportAgain =
     "Export the tree again; the Khronos glTF validator lists what is wrong in a glTF file.";
 
-/// What helps where a mesh is not made of numbers.
+/// The remedy for a mesh with values that are not numbers.
 inline constexpr std::string_view kRepairMesh =
     "Repair the mesh in the program that made it, then export it again.";
 
-/// A warning, after what it is about.
+/// A warning that follows the name of its subject.
 inline constexpr std::string_view kNotAllFinite =
     "not all values are finite; leaves that hold such a value are dropped";
 

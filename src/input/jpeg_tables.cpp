@@ -7,13 +7,13 @@
 namespace leafhull {
 namespace {
 
-/// Goes from marker to marker as stb_image does, and ends where that gives up.
+/// Goes from marker to marker as stb_image does, and stops where stb_image gives up.
 class TableCheck {
  public:
   explicit TableCheck(ByteSpan jpeg) : jpeg_(jpeg) {}
 
   bool run() {
-    int marker = take_marker();  // the start of the image, which has no length
+    int marker = take_marker();  // the start-of-image marker, which has no length
     for (bool sound = true; sound;) {
       marker = marker == kScan ? marker_after_scan() : take_marker();
       switch (marker) {
@@ -59,7 +59,8 @@ class TableCheck {
     return marker;
   }
 
-  /// Within a scan a zero follows what is no marker, and markers 0xD0 to 0xD7 belong to it.
+  /// The marker that ends a scan. Within a scan, 0xFF before a zero is no marker, and markers 0xD0
+  /// to 0xD7 belong to the scan.
   int marker_after_scan() {
     int marker = 0;
     do {
@@ -110,7 +111,7 @@ class TableCheck {
   }
 
   bool scan() {
-    std::array<unsigned, 2> used{};  // for the mean of a block, and for the rest
+    std::array<unsigned, 2> used{};  // tables for a block's mean, and for the rest
     for (int count = take(); count > 0 && !at_end(); --count) {
       take();
       const int tables = take();
@@ -126,7 +127,7 @@ class TableCheck {
     return (needed & ~huffman_) == 0;
   }
 
-  /// Of a table's number and kind, in a set; there are four of a kind.
+  /// The bit of a table in a set, by its number and kind; there are four tables of each kind.
   static unsigned bit(int number, int kind) {
     return number > 3 ? 0 : 1u << (4 * (kind & 1) + number);
   }

@@ -5,10 +5,9 @@
 
 namespace leafhull {
 
-/// Whether the Huffman tables of a JPEG file hold no more codes than there are bytes, and those
-/// that its scans use are there, as are its quantisation tables. stb_image takes that for granted:
-/// before version 2.29 it writes past the end of larger tables, and what is not there is whatever
-/// the memory held.
+/// Whether the Huffman tables of a JPEG file hold no more codes than there are bytes, and whether
+/// all Huffman and quantisation tables that its scans use exist. stb_image does not check: before
+/// version 2.29 it writes past the end of larger tables, and missing tables are uninitialised.
 bool has_sound_tables(ByteSpan jpeg);
 
 }  // namespace leafhull

@@ -32,13 +32,13 @@ struct Part {
   int node = -1;
   int material = -1;
   std::vector<Corner> corners{};
-  std::vector<std::size_t> faces{};  // where each ends in `corners`
+  std::vector<std::size_t> faces{};  // the end of each in `corners`
 };
 
 constexpr std::string_view kExportObjAgain =
     "Export the tree again, as OBJ with all its vertices or as a .glb file.";
 
-/// Collects the file as tinyobjloader goes through it. Its own triangulation loses concave
+/// Collects the file's parts through tinyobjloader's callbacks: its own triangulation loses concave
 /// polygons.
 class Collector {
  public:
@@ -78,7 +78,7 @@ class Collector {
   std::vector<TreeNode> nodes;  ///< objects, and groups in them
 
  private:
-  /// The number of the node of that name in `parent`, which a nameless one stands for.
+  /// The index of the node of that name in `parent`; `parent` itself if the name is empty.
   int node_of(int parent, const std::string& name) {
     if (name.empty()) return parent;
     const auto [entry, is_new] = node_numbers_.emplace(std::pair(parent, name), nodes.size());
@@ -100,7 +100,7 @@ class Collector {
     part.faces.push_back(part.corners.size());
   }
 
-  // Counts from one, or back from the last; zero stands for nothing.
+  // OBJ indices count from one, or backwards from the last; zero means none.
   int index(int written, std::size_t count, bool required) const {
     const std::int64_t index = written < 0 ? static_cast<std::int64_t>(count) + written
                                            : static_cast<std::int64_t>(written) - 1;
@@ -143,7 +143,7 @@ class PrimitiveMaker {
                  const std::string& file)
       : vertices_(vertices), materials_(materials), file_(file) {}
 
-  /// Zero, or the middle of a tree so far out that floats would lose its shape.
+  /// The middle of a tree that lies so far out that floats would lose its shape, else zero.
   Vec3d origin(const std::vector<Part>& parts) const {
     Box box;
     for (const Part& part : parts) {

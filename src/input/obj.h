@@ -12,7 +12,7 @@ namespace leafhull {
 
 /// Reads Wavefront OBJ with its material libraries. Every object or group is a mesh and a node of
 /// its name, with one primitive per material; polygons become triangles.
-/// @param file as messages call it; @param companions material libraries and textures.
+/// @param file the file's name in messages; @param companions material libraries and textures.
 /// @throws Error input.
 TreeModel read_obj(ByteSpan bytes, const std::string& file, const Companions& companions);
 

@@ -35,8 +35,8 @@ bool is_there(const Companions& companions, const std::string& name) try {
   return false;
 }
 
-/// The names on a mtllib line: the line where that is a file's, else each ends with .mtl. Either
-/// may hold blanks.
+/// The names on a mtllib line: the whole line if it names a file, else each ends in .mtl. Both may
+/// hold blanks.
 std::vector<std::string> library_names(const std::string& line, const Companions& companions) {
   std::vector<std::string> names(1);
   std::string_view rest = line;
@@ -58,7 +58,7 @@ std::string quoted_list(const std::vector<std::string>& names) {
   return list;
 }
 
-/// NaN where a material does not have it. Words such as -halo stand before the number.
+/// A material's parameter, or NaN if it is missing. Words such as -halo may precede the number.
 double parameter(const tinyobj_double::material_t& material, const char* key) {
   const auto found = material.unknown_parameter.find(key);
   if (found == material.unknown_parameter.end()) return std::nan("");
@@ -66,7 +66,7 @@ double parameter(const tinyobj_double::material_t& material, const char* key) {
   return finite_number(value.substr(value.find_last_of(" \t") + 1));
 }
 
-/// None where a material contradicts itself.
+/// The opacity of a material; none if it contradicts itself.
 std::optional<double> opacity_of(const tinyobj_double::material_t& material) {
   const double d = parameter(material, kDissolve), tr = parameter(material, kTransparency);
   const double opacity = !std::isnan(d) ? d : !std::isnan(tr) ? 1 - tr : 1;
@@ -75,7 +75,8 @@ std::optional<double> opacity_of(const tinyobj_double::material_t& material) {
   return at_odds ? std::nullopt : std::optional(std::clamp(opacity, 0.0, 1.0));
 }
 
-/// Exporters disagree about what d and Tr mean: what cannot be meant is taken as opaque.
+/// Sets opacities. Exporters disagree about the meaning of d and Tr, so implausible values count as
+/// opaque.
 void set_opacities(std::span<tinyobj_double::material_t> library, const std::string& name,
                    std::vector<std::string>& warnings) {
   std::vector<std::string> at_odds;
@@ -95,8 +96,8 @@ void set_opacities(std::span<tinyobj_double::material_t> library, const std::str
   }
 }
 
-/// Gives each material a white Kd before what it says: without one the library takes black, or a
-/// grey beside a texture, where programs mean the texture as it is.
+/// Gives each material a white default Kd. Without one tinyobjloader takes black, or grey beside a
+/// texture, though programs mean the texture unchanged.
 std::string white_unless_told(std::string_view library) {
   std::string text;
   while (!library.empty()) {

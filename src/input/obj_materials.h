@@ -16,13 +16,13 @@ namespace leafhull {
 struct ObjMaterials {
   std::vector<tinyobj_double::material_t> materials;
   std::map<std::string, int> by_name;
-  std::size_t in_libraries = 0;  ///< how many of them
+  std::size_t in_libraries = 0;  ///< the number that libraries hold
 
-  /// Adds those of a library. @param warnings as read_material_libraries.
+  /// Adds the materials of a library. @param warnings as in read_material_libraries.
   void add_library(std::string_view written, const std::string& name,
                    std::vector<std::string>& warnings);
 
-  /// The index of a material; one that no library has is added, for its name alone can tell leaves.
+  /// The index of a material. One that no library has is added, as its name alone can tell leaves.
   int find_or_add(const std::string& name);
 };
 
@@ -31,12 +31,12 @@ struct ObjMaterials {
 ObjMaterials read_material_libraries(std::string_view obj, const Companions& companions,
                                      std::vector<std::string>& warnings);
 
-/// Adds the materials that are `used` to a tree with their images; the others without. Holes in the
-/// colour image are holes in the material.
+/// Adds materials to a tree, with images for those in `used` only. Holes in the colour image are
+/// holes in the material.
 void add_materials(const ObjMaterials& from, const std::vector<bool>& used,
                    const Companions& companions, TreeModel& tree);
 
-/// The texture coordinates of a material's image, v down, for those of the file.
+/// Maps texture coordinates of the file to those of the material's image, v down.
 Vec2f image_coordinates(const tinyobj_double::material_t& material, double u, double v);
 
 }  // namespace leafhull

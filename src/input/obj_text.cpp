@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::string_view kBlanks = " \t";
 
-/// Keywords in small letters, and as they are to be.
+/// Keywords in lower case, and as tinyobjloader expects them.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 14> kKeywords{
     {{"v", "v"},
      {"vn", "vn"},
@@ -38,7 +38,7 @@ std::string_view keyword_for(std::string_view word) {
   return word;
 }
 
-/// Ends with LF, CR or both.
+/// The next line, which ends in LF, CR or both.
 std::string_view take_raw_line(std::string_view& text) {
   const std::size_t length = std::min(text.find_first_of("\r\n"), text.size());
   const std::string_view line = text.substr(0, length);

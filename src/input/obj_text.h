@@ -6,7 +6,7 @@
 
 namespace leafhull {
 
-// Of a material library, where tinyobjloader would read only one of them: other keywords to it.
+// New names for d and Tr in a material library, as tinyobjloader would read only one of the two.
 inline constexpr const char* kDissolve = "dissolve";
 inline constexpr const char* kTransparency = "transparency";
 
@@ -15,16 +15,16 @@ inline constexpr const char* kTransparency = "transparency";
 /// capitals that tinyobjloader asks for. Every line keeps its number.
 std::string obj_text(std::string_view written);
 
-/// The text up to the next LF, taken from its front with that.
+/// Removes the text up to the next LF from the front, and returns it without the LF.
 std::string_view take_line(std::string_view& text);
 
-/// The next word of a line, taken from its front; empty at its end.
+/// Removes the next word from the front of a line and returns it; empty at the end.
 std::string_view take_word(std::string_view& line);
 
-/// Without blanks at its ends.
+/// The text without blanks at its ends.
 std::string_view trimmed(std::string_view text);
 
-/// NaN where a word is not a finite number.
+/// The number that a word holds; NaN if it is not a finite number.
 double finite_number(std::string_view word);
 
 }  // namespace leafhull

@@ -17,8 +17,9 @@ struct ObjVertices {
   std::vector<Vec2d> uvs;      ///< NaN where a line is not one or two numbers
 };
 
-/// From `obj_text`. tinyobjloader reads what is not a number as zero.
-/// @param warnings gets a line for values that are not finite, one for what is no face.
+/// Reads them from `obj_text`; tinyobjloader would read anything that is not a number as zero.
+/// @param warnings gets a line for values that are not finite, and one for elements that are no
+/// faces.
 /// @throws Error input: a v line is not three finite numbers.
 ObjVertices read_obj_vertices(std::string_view text, const std::string& file,
                               std::vector<std::string>& warnings);

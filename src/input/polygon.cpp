@@ -18,8 +18,9 @@ Vec3d newell_normal(std::span<const Vec3d> polygon) {
   return normal;
 }
 
-/// Cuts the first ear of what is left, again and again, in time quadratic in the corners: what lies
-/// outside the triangle of a tip stays outside until a neighbour of the tip is cut.
+/// Cuts the first ear of the remaining polygon until none is left, in time quadratic in the
+/// corners: a corner outside the triangle of a tip stays outside until a neighbour of the tip is
+/// cut.
 class EarCutter {
  public:
   explicit EarCutter(std::span<const Vec3d> polygon)
@@ -47,7 +48,8 @@ class EarCutter {
  private:
   static constexpr std::uint32_t kNotConvex = ~0u;
 
-  /// The second corner where there is none: the polygon crosses itself or has no area.
+  /// The first ear. If there is none, as the polygon crosses itself or has no area, the second
+  /// corner.
   std::uint32_t find_ear() {
     std::uint32_t tip = first_;
     do {
@@ -79,7 +81,7 @@ class EarCutter {
     }
   }
 
-  /// Goes on to the next corner in the triangle of `tip`, or past the last.
+  /// Finds the next corner inside the triangle of `tip`, or goes past the last.
   void find_blocker(std::uint32_t tip) {
     const Vec3d a = polygon_[previous_[tip]], b = polygon_[tip], c = polygon_[next_[tip]];
     const auto is_inside = [&](Vec3d p) {
@@ -102,7 +104,7 @@ class EarCutter {
 }  // namespace
 
 std::vector<std::array<std::uint32_t, 3>> triangulate(std::span<const Vec3d> polygon) {
-  // Ears are found in the square of the number of corners.
+  // Finding ears takes time quadratic in the number of corners.
   constexpr std::size_t kMostCorners = 50'000;
   if (polygon.size() > kMostCorners) {
     std::vector<std::array<std::uint32_t, 3>> fan;

@@ -7,7 +7,7 @@
 
 namespace leafhull {
 
-/// The place of something in a world whose y is up, of its place in one whose z is.
+/// Converts a transform into a world whose z is up to one into a world whose y is up.
 inline Transform z_up_to_y_up(Transform to_world) {
   auto& [x, y, z] = to_world;
   std::swap(y, z);

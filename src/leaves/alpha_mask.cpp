@@ -13,11 +13,11 @@ namespace leafhull {
 namespace {
 
 constexpr double kBlendCutoff = 0.5;
-// A box that repeats the image beyond this is no picture of one leaf.
+// A box that repeats the image over more texels than this is no picture of one leaf.
 constexpr double kMostTexels = 1 << 26;
 
-/// Between where a polygon in a row of texels has both the row's top and its bottom: texels there
-/// lie whole in it.
+/// The range of x in which a polygon, clipped to a row of texels, spans the row from top to bottom:
+/// texels in that range lie wholly inside it.
 std::pair<double, double> across(const ConvexPolygon& row, double top) {
   double low[2] = {HUGE_VAL, HUGE_VAL}, high[2] = {-HUGE_VAL, -HUGE_VAL};
   for (std::size_t i = 0; i < row.size(); ++i) {
@@ -30,8 +30,8 @@ std::pair<double, double> across(const ConvexPolygon& row, double top) {
   return {std::max(low[0], low[1]), std::min(high[0], high[1])};
 }
 
-/// The moments of those texels that are kept of a row of whole ones, the first with its corner at
-/// (left, top); `turn` is their sign.
+/// The moments of the kept texels in a row of whole texels, which starts at (left, top); `turn` is
+/// their sign.
 PolygonMoments whole_texels(std::span<const std::uint8_t> texels, double left, double top,
                             double turn) {
   std::uint64_t count = 0, places = 0;
@@ -154,7 +154,7 @@ std::optional<TextureEllipse> AlphaMask::moments(const Texels& texels) const {
   const Eigen::Array2d middle(0.5 * static_cast<double>(texels.left + texels.right),
                               0.5 * static_cast<double>(texels.top + texels.bottom));
   const bool wraps = texels.left < 0 || texels.right >= width_;
-  // About the middle all coordinates are multiples of a half: the sums are exact.
+  // Relative to the middle all coordinates are multiples of a half, so the sums are exact.
   double count = 0;
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
   Eigen::Matrix2d squares = Eigen::Matrix2d::Zero();
@@ -180,7 +180,7 @@ std::optional<TextureEllipse> AlphaMask::moments(const Texels& texels) const {
   if (count == 0) return {};
 
   const Eigen::Vector2d mean = sum / count;
-  // Each texel is a unit square, itself of variance 1/12, not a point.
+  // A texel is not a point but a unit square, with a variance of 1/12.
   const Eigen::Matrix2d in_texels =
       squares / count - mean * mean.transpose() + Eigen::Matrix2d::Identity() / 12;
   const Eigen::Matrix2d to_uv = size.inverse().matrix().asDiagonal();

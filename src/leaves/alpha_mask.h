@@ -20,14 +20,14 @@ struct UvBox {
 /// How much of a triangle in texture space is kept, and the middle of that part.
 struct KeptPart {
   double share;  ///< 0..1
-  Vec2d centre;  ///< of the triangle where nothing is kept
+  Vec2d centre;  ///< the triangle's own if nothing is kept
 };
 
 /// The part of a material's texture that is not cut away: alpha at or above the cutoff.
 class AlphaMask {
  public:
-  /// Nothing where the material is opaque and not `cut_out`, its image is missing, or no texel is
-  /// cut away.
+  /// The mask of a material; none if it is opaque and not `cut_out`, its image is missing, or no
+  /// texel is cut away.
   static std::optional<AlphaMask> of(const Material& material, const std::vector<Image>& images,
                                      bool cut_out = false);
 
@@ -35,17 +35,17 @@ class AlphaMask {
   bool keeps_any() const { return kept_count_ > 0; }
   /// Whether the texel at a place in texture space is kept.
   bool keeps(Vec2d uv) const;
-  /// Exact: a texel counts by the area that it shares with the triangle. A triangle without area is
-  /// the texel that it lies in.
+  /// The exact share: a texel counts by the area it has in common with the triangle. A triangle
+  /// without area counts as the texel that it lies in.
   KeptPart kept_part(const std::array<Vec2d, 3>& triangle) const;
 
   /// The ellipse with the moments of the mask inside the box: half axes of two standard deviations
-  /// along its principal directions. Nothing where the mask is empty there. Boxes are remembered;
-  /// threads may ask at once.
+  /// along its principal directions. None if the mask is empty there. Results are cached; threads
+  /// may call this at the same time.
   std::optional<TextureEllipse> ellipse(const UvBox& box);
 
  private:
-  /// Texel columns and rows, bounds included; outside the image as the wrap modes continue it.
+  /// Texel columns and rows, bounds included. Outside the image the wrap modes apply.
   struct Texels {
     std::int64_t left, right, top, bottom;
     auto operator<=>(const Texels&) const = default;
@@ -56,7 +56,7 @@ class AlphaMask {
 
   int width_, height_;
   Wrap wrap_u_, wrap_v_;
-  std::vector<std::uint8_t> kept_;  ///< a texel each, 1 where it is kept, rows from the top
+  std::vector<std::uint8_t> kept_;  ///< 1 for each kept texel, else 0; rows from the top
   std::size_t kept_count_ = 0;
   tbb::concurrent_map<Texels, std::optional<TextureEllipse>> ellipses_;
 };

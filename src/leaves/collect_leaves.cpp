@@ -17,14 +17,14 @@
 namespace leafhull {
 namespace {
 
-/// Needles of fewer faces are not looked at.
+/// Components with fewer faces, such as needles, are not tested for being solid.
 constexpr std::size_t kFewestFacesOfSolid = 8;
 
 /// The number of components in a batch: few enough for their leaves to stay in the cache until they
 /// are appended.
 constexpr std::size_t kAtATime = 1 << 13;
 
-/// Takes components one after the other. Its numbers count those of all instances.
+/// Takes components one after the other, numbered through all instances.
 class LeafCollector {
  public:
   /// `before`: the leaves that were found before, which do not change meanwhile.
@@ -70,7 +70,7 @@ class LeafCollector {
     }
   }
 
-  /// False, and `mesh_` holds the faces, where they are not one flat leaf.
+  /// Returns false, with the faces in `mesh_`, if they are not one flat leaf.
   bool take_if_flat(std::span<const Face> faces) {
     mesh_.assign(source_.mesh, faces, placement_.linear);
     const std::optional<LeafEllipse> ellipse = fit_ellipse(mesh_, source_.texture);
@@ -100,7 +100,7 @@ class LeafCollector {
     return placement_.linear * first + placement_.translation;
   }
 
-  /// Whether every normal and texture coordinate that `mesh_` stores is.
+  /// Whether all normals and texture coordinates in `mesh_` are finite.
   bool is_finite() const {
     const std::vector<Vec3f>& normals = source_.primitive.normals;
     const std::vector<Vec2f>& uvs = source_.primitive.uvs;
@@ -112,7 +112,7 @@ class LeafCollector {
     });
   }
 
-  /// One kernel frame a vertex, or nothing where a value has no place in a float.
+  /// Appends one kernel frame per vertex, or nothing if a value does not fit in a float.
   bool append_vertices(const LeafEllipse& ellipse) {
     const auto radius_major = static_cast<float>(source_.scale * ellipse.major.norm());
     const auto radius_minor = static_cast<float>(source_.scale * ellipse.minor.norm());

@@ -14,13 +14,13 @@ namespace leafhull {
 
 /// Leaves in the order in which they were taken.
 struct FoundLeaves {
-  std::vector<LeafVertex> vertices{};  ///< of a leaf side by side
+  std::vector<LeafVertex> vertices{};  ///< those of one leaf are consecutive
   Box bounds{};                        ///< of the vertices
   SheetCollector sheets{};
   std::size_t count = 0;
   std::size_t dropped = 0;     ///< as LeafSet::dropped_leaves
   std::size_t split = 0;       ///< as LeafSet::split_components
-  std::size_t untextured = 0;  ///< whose texture should have told their ellipse and did not
+  std::size_t untextured = 0;  ///< leaves whose texture should give their ellipse but does not
 
   void append(FoundLeaves&& next);
 };
@@ -30,13 +30,13 @@ struct LeafSource {
   const Primitive& primitive;
   const WeldedMesh& mesh;  ///< `primitive` welded
   const FaceGroups& components;
-  std::vector<Transform> to_world{};  ///< one an instance
+  std::vector<Transform> to_world{};  ///< one per instance
   TextureSource texture{};
   double scale = 1;  ///< multiplies R_u and R_v
 };
 
-/// Appends the leaves of every instance, component by component. Runs on all threads; what it finds
-/// and its order do not depend on them.
+/// Appends the leaves of every instance, component by component. Runs on all threads; neither the
+/// leaves nor their order depend on the number of threads.
 void collect_leaves(const LeafSource& source, FoundLeaves& found);
 
 }  // namespace leafhull

@@ -23,7 +23,7 @@ class ConvexPolygon {
   std::size_t size_ = 0;
 };
 
-/// Area and first moments, of the sign that the order of the corners has.
+/// Area and first moments; the order of the corners gives their sign.
 struct PolygonMoments {
   double area = 0;
   Vec2d first;  ///< the integral of the position
@@ -45,7 +45,7 @@ inline PolygonMoments moments_of(const ConvexPolygon& polygon) {
   return sum;
 }
 
-/// The part between two values of a coordinate.
+/// The part of a polygon between two values of a coordinate.
 inline ConvexPolygon clip(const ConvexPolygon& polygon, double Vec2d::*axis, double low,
                           double high) {
   const auto half = [axis](const ConvexPolygon& from, double bound, double sign) {

@@ -17,13 +17,13 @@
 namespace leafhull {
 namespace {
 
-/// No more than one leaf in so many may be a stray, and the core leaves as many out at each end.
+/// At most one leaf in this many may be a stray; the core leaves out as many at each end.
 constexpr std::size_t kFew = 10;
-/// How far a leaf may be from the rest of the crown, in the core's longest side.
+/// How far a leaf may be from the rest of the crown, as a share of the core's longest side.
 constexpr double kReach = 0.5;
 /// Cells along that distance.
 constexpr int kCells = 2;
-/// What is farther from the core, in cells, is there together: it is far from the crown anyway.
+/// Cells farther from the core are clamped to this: they are far from the crown in any case.
 constexpr double kLastCell = 1 << 19;
 
 std::vector<Box> leaf_boxes(const LeafSet& leaves) {
@@ -50,7 +50,8 @@ Box core_of(std::span<const Box> boxes) {
   return core;
 }
 
-/// How far `inner` lies from `outer`, or by how much it sticks out: the most along an axis.
+/// gap() is how far `inner` lies from `outer`, overhang() how far it sticks out of it: the largest
+/// distance along an axis.
 double gap(const Box& outer, const Box& inner) {
   const auto along = [&](double Vec3d::*axis) {
     return std::max(outer.low.*axis - inner.high.*axis, inner.low.*axis - outer.high.*axis);
@@ -113,7 +114,7 @@ class Groups {
   Box core_;
   double cell_;
   std::unordered_map<std::uint64_t, std::uint32_t> cells_;
-  UnionFind sets_{1};  ///< the core alone
+  UnionFind sets_{1};  ///< starts with only the core
   std::vector<Cell> places_{Cell{}};
 };
 

@@ -11,12 +11,12 @@
 
 namespace leafhull {
 
-/// Where the ellipses of a primitive's leaves may be drawn in texture space; neither: their
-/// triangles alone decide.
+/// Where the ellipses of a primitive's leaves may come from in texture space. With neither an
+/// ellipse nor a mask, their triangles alone decide.
 struct TextureSource {
   std::span<const Vec2f> uvs;             ///< by stored vertex, or none
   std::optional<TextureEllipse> ellipse;  ///< given by the user
-  std::shared_ptr<AlphaMask> mask;        ///< what of the texture is visible; none: all of it
+  std::shared_ptr<AlphaMask> mask;        ///< the visible part of the texture; none: all of it
 
   bool draws() const { return ellipse || mask; }
 };
@@ -39,8 +39,9 @@ struct LeafEllipse {
   std::optional<TextureMap> map;  ///< where the texture can be mapped
 };
 
-/// The first source that applies: the given ellipse, the alpha mask, the triangles. Nothing for a
-/// leaf without area or with values that are not finite. SPEC: 1, "The leaf's ellipse".
+/// A leaf's ellipse from the first source that applies: the given ellipse, the alpha mask, the
+/// triangles. None for a leaf without area or with values that are not finite. SPEC: 1, "The leaf's
+/// ellipse".
 std::optional<LeafEllipse> fit_ellipse(const LeafMesh& leaf, const TextureSource& texture);
 
 }  // namespace leafhull

@@ -32,8 +32,8 @@ void check(const LeafOptions& options) {
   }
 }
 
-/// The most vertices, 1 GiB of them, that memory is reserved for. Memory that is not used costs
-/// nothing.
+/// Memory is reserved for at most this many vertices, 1 GiB. Reserved memory costs nothing until it
+/// is used.
 constexpr std::size_t kMostReserved = std::size_t{1} << 24;
 
 /// The visible parts of textures, by material.
@@ -89,7 +89,7 @@ WeldedMesh weld_chosen(const Primitive& primitive, const LeafChoice& choice, std
   return weld(primitive, weld_positions(primitive), triangles);
 }
 
-/// The choice for those who ask how the leaves were found.
+/// The choice as kept in LeafSet::choice, for callers that ask how the leaves were found.
 std::shared_ptr<const LeafChoice> told(LeafChoice choice) {
   choice.welded.reset();
   return std::make_shared<const LeafChoice>(std::move(choice));
@@ -140,7 +140,7 @@ std::string no_usable_leaf(std::size_t dropped, const std::string& file) {
   return which + " an area and finite values";
 }
 
-/// R_u once a leaf, in the order of the leaves' numbers.
+/// The mean R_u, counting each leaf once, summed in the order of leaf numbers.
 double mean_radius_major(const LeafSet& leaves) {
   double sum = 0;
   std::uint32_t next = 0;

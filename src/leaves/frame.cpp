@@ -7,7 +7,7 @@
 namespace leafhull {
 namespace {
 
-// The length below which what is left of unit vectors is round-off.
+// Below this length, the remainder of unit vectors is round-off.
 constexpr double kRoundOff = 1e-6;
 
 /// A stored normal at a point of the leaf, turned to the front.
@@ -28,7 +28,7 @@ std::vector<PointNormal> distinct_normals(const LeafMesh& leaf, std::span<const 
   std::vector<PointNormal> normals;
   if (stored.empty()) return normals;
   normals.reserve(3 * leaf.faces.size());
-  // Where a placed normal points to the front, the stored one points along this.
+  // A placed normal points to the front if the stored one points along this.
   const Eigen::Vector3d front = placement.normals.transpose() * plane_normal;
   for (std::size_t face = 0; face < leaf.faces.size(); ++face) {
     for (int corner = 0; corner < 3; ++corner) {
@@ -42,8 +42,8 @@ std::vector<PointNormal> distinct_normals(const LeafMesh& leaf, std::span<const 
   return normals;
 }
 
-/// Makes unit vectors of `sums` where there is something to make them of.
-/// Returns whether all are.
+/// Scales `sums` to unit length; those that are too short become zero.
+/// Returns whether all are unit vectors.
 bool normalize(std::vector<Eigen::Vector3d>& sums, double least_length) {
   bool all = true;
   for (Eigen::Vector3d& sum : sums) {

@@ -12,8 +12,8 @@
 namespace leafhull {
 
 /// A unit normal for every point of the leaf, on the front side of its plane: the mean of the
-/// distinct ones stored there, else of the faces around it, else the plane's.
-/// `stored`: by stored vertex, or none.
+/// distinct normals stored there, else of those of the faces around it, else the plane's.
+/// `stored` has the normals by stored vertex, or none.
 std::vector<Eigen::Vector3d> vertex_normals(const LeafMesh& leaf, std::span<const Vec3f> stored,
                                             const Placement& placement,
                                             const Eigen::Vector3d& plane_normal);

@@ -38,7 +38,7 @@ struct EdgeSide {
   std::uint32_t corner;  ///< of the face, where the edge starts
 };
 
-/// Three for every face that has an area, those of one edge side by side.
+/// The three sides of every face that has an area; sides of the same edge are adjacent.
 std::vector<EdgeSide> edge_sides(const LeafMesh& leaf) {
   std::vector<EdgeSide> sides;
   sides.reserve(3 * leaf.faces.size());
@@ -63,7 +63,7 @@ Eigen::Vector3d inward(const LeafMesh& leaf, const EdgeSide& side) {
   return edge.cross(across).cross(edge).normalized();
 }
 
-/// Whether a sheet goes on from one face to the other, or comes back as its other side.
+/// Whether a sheet continues from one face to the other, or turns back as its other side.
 bool is_smooth(const LeafMesh& leaf, const EdgeSide& a, const EdgeSide& b) {
   const double cosine = inward(leaf, a).dot(inward(leaf, b));
   return -cosine >= kCosSharp || cosine >= kCosDoubled;

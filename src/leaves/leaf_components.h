@@ -61,18 +61,18 @@ bool is_welded(const Primitive& primitive, std::span<const std::uint32_t> welded
 WeldedMesh weld(const Primitive& primitive, std::span<const std::uint32_t> welded,
                 const std::vector<bool>& triangles = {});
 
-/// Of each triangle of a primitive, which piece it belongs to: what hangs together by its vertices,
-/// numbered as the file has them. `welded` as above.
+/// The piece that each triangle of a primitive belongs to. A piece is a set of triangles connected
+/// by vertices; pieces are numbered in file order. `welded` is as above.
 std::vector<std::uint32_t> label_pieces(const Primitive& primitive,
                                         std::span<const std::uint32_t> welded);
 
-/// Triangles that hang together by their vertices.
+/// Groups of triangles that are connected by vertices.
 FaceGroups connected_components(const WeldedMesh& mesh);
 
-/// What hangs together across edges that are not sharper than 45 degrees.
+/// Groups of faces that are connected across edges no sharper than 45 degrees.
 FaceGroups split_at_sharp_edges(const LeafMesh& leaf);
 
-/// Single triangles; the front and the back of one stay together.
+/// Groups of a single triangle; its front and back stay together.
 FaceGroups split_into_triangles(std::span<const Face> faces);
 
 }  // namespace leafhull

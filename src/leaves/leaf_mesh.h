@@ -12,8 +12,8 @@
 
 namespace leafhull {
 
-/// The triangles of what may be a leaf, in world directions and scale but about its own first
-/// vertex: far from the origin nothing is lost. Kept between leaves to reuse its memory.
+/// The triangles of a possible leaf, in world directions and scale but relative to its first
+/// vertex, so that it loses no digits far from the origin. It is reused to save memory.
 struct LeafMesh {
   std::span<const Face> faces;
   std::vector<std::uint32_t> positions;                 ///< into WeldedMesh::positions, ascending
@@ -32,7 +32,7 @@ struct PlaneFit {
   double deviation;              ///< largest distance of a vertex to the plane
 };
 
-/// Least squares over the leaf's area. Nothing where it has none or is not finite.
+/// A least-squares fit over the leaf's area. None if it has no area or is not finite.
 std::optional<PlaneFit> fit_plane(const LeafMesh& leaf);
 
 }  // namespace leafhull

@@ -31,8 +31,8 @@ bool precedes(const LeafVertex& a, const LeafVertex& b) {
   return key(a) < key(b);
 }
 
-/// Each leaf's place among the leaves compared by all their vertices: vertices that agree in
-/// everything may belong to different leaves.
+/// The rank of each leaf when leaves are compared by all their vertices. Vertices that are equal
+/// may belong to different leaves.
 std::vector<std::uint32_t> rank_leaves(const LeafSet& leaves) {
   std::vector<std::size_t> begin(leaves.leaf_count + 1);
   for (const LeafVertex& vertex : leaves.vertices) ++begin[vertex.leaf + 1];

@@ -11,12 +11,11 @@
 
 namespace leafhull {
 
-/// The place of a position on a Morton curve through the box `bounds`; what lies beyond it counts
-/// as on its side.
+/// The place of a position on a Morton curve through the box `bounds`; positions outside are
+/// clamped to its sides.
 std::uint64_t morton_code(Vec3d position, const Box& bounds);
 
-/// The order of things by their codes. `precedes` tells which of two comes first that have the
-/// same.
+/// The order of things by their codes. `precedes` decides between two with the same code.
 std::vector<std::uint32_t> order_by_code(
     std::size_t count, const std::function<std::uint64_t(std::uint32_t)>& code,
     const std::function<bool(std::uint32_t, std::uint32_t)>& precedes);
@@ -40,7 +39,7 @@ void put_in_order(std::vector<Value>& values, std::vector<std::uint32_t> order) 
 
 /// Sorts the vertices along a Morton curve through their bounds and numbers the leaves as they
 /// appear there: an order that depends on the geometry alone.
-/// `leaves`: bounds set; the vertices of a leaf side by side, leaves numbered in that order.
+/// `leaves` must have its bounds set, the vertices of a leaf together and leaves in that order.
 void sort_vertices(LeafSet& leaves);
 
 }  // namespace leafhull

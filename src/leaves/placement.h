@@ -14,7 +14,7 @@ inline Vec3f to_vec3f(const Eigen::Vector3d& v) { return Vec3f(to_vec3d(v)); }
 /// An instance's transform, taken apart.
 struct Placement {
   Eigen::Matrix3d linear;
-  Eigen::Matrix3d normals;  ///< takes normals along: the cofactors, det(linear) * inverse transpose
+  Eigen::Matrix3d normals;  ///< transforms normals: the cofactors, det(linear) * inverse transpose
   Eigen::Vector3d translation;
 
   explicit Placement(const Transform& to_world) {

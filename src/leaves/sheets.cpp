@@ -13,12 +13,12 @@
 namespace leafhull {
 namespace {
 
-/// The sides of a leaf that has both differ by less than this share in area.
+/// A leaf has two sides if their areas differ by less than this share.
 constexpr double kSameArea = 0.01;
-/// Outlines are told apart by coordinates of this precision, in sides of their largest face.
+/// Outlines are compared in this many steps to a side of their largest face.
 constexpr double kOutlineSteps = 4096;
 
-/// The faces that stand for a leaf: its front where it has a back that covers the same area.
+/// The faces that represent a leaf: only its front if it has a back of the same area.
 std::vector<std::size_t> faces_of_one_side(const LeafMesh& leaf, const Eigen::Vector3d& normal) {
   double front = 0, back = 0;
   for (const Eigen::Vector3d& area : leaf.areas) {
@@ -39,8 +39,8 @@ struct Axes {
   Eigen::Vector3d origin, across, along;
 };
 
-/// Two sides of the largest of some faces, so that alike leaves have alike coordinates, whatever
-/// way they are turned.
+/// Takes two sides of the largest face as axes, so that similar leaves get similar coordinates
+/// however they are turned.
 Axes axes_of_faces(const LeafMesh& leaf, std::span<const std::size_t> faces) {
   constexpr double kClearlyLarger = 1 + 1e-5;
   std::size_t largest = faces.front();
@@ -51,7 +51,7 @@ Axes axes_of_faces(const LeafMesh& leaf, std::span<const std::size_t> faces) {
   return {leaf.points[a], leaf.points[b] - leaf.points[a], leaf.points[c] - leaf.points[a]};
 }
 
-/// Where a point lies along both axes, across from which it does not count.
+/// The coordinates of a point along both axes; its distance from their plane does not count.
 Vec2d in_plane(const Axes& axes, const Eigen::Vector3d& point) {
   const Eigen::Vector3d normal = axes.across.cross(axes.along);
   const Eigen::Vector3d offset = point - axes.origin;
@@ -166,7 +166,7 @@ void SheetCollector::append(SheetCollector&& next) {
   for (auto chart = next.charts_.begin(); chart != next.charts_.end(); ++chart) {
     known[chart->second] = chart;
   }
-  std::vector<std::uint32_t> number(other.charts.size());  // here, by its number there
+  std::vector<std::uint32_t> number(other.charts.size());  // its new number, by its old one
   for (std::size_t i = 0; i < number.size(); ++i) {
     auto node = next.charts_.extract(known[i]);
     node.mapped() = static_cast<std::uint32_t>(sheets_->charts.size());
@@ -184,11 +184,11 @@ void SheetCollector::append(SheetCollector&& next) {
   sheets_->invisible += other.invisible;
 }
 
-/// Gives the solids their areas and an order that depends on the geometry alone, and forgets those
-/// that have no area.
+/// Gives the solids their areas and an order that depends on the geometry alone, and removes those
+/// without area.
 void SheetCollector::sort_solids() {
   std::vector<LeafSolid>& solids = sheets_->solids;
-  // The first sheet of each tells its place: sheets are sorted.
+  // Sheets are sorted, so the first sheet of each solid gives its place.
   std::vector<std::int32_t> place(solids.size(), -1);
   std::vector<LeafSolid> sorted;
   for (LeafSheet& sheet : sheets_->sheets) {

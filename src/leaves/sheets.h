@@ -16,8 +16,8 @@
 
 namespace leafhull {
 
-/// The outline of leaves in two dimensions, and what of it is visible. Leaves that show the same
-/// part of a texture, or have one shape, share a chart.
+/// The outline of leaves in two dimensions, and its visible part. Leaves that show the same part of
+/// a texture, or have the same shape, share a chart.
 struct LeafChart {
   std::vector<std::array<Vec2d, 3>> triangles;
   std::shared_ptr<const AlphaMask> mask;  ///< of the texture space they lie in; none: all visible
@@ -29,12 +29,12 @@ struct LeafChart {
 struct LeafSheet {
   Vec3d origin;
   Vec3d across, along;
-  double area = 0;  ///< that is visible, one side of it, model units squared; > 0
+  double area = 0;  ///< visible area, one side, model units squared; > 0
   std::uint32_t chart = 0;
   Vec3f normal, major;
   float radius_major = 0, radius_minor = 0;  ///< R_u, R_v, model units
-  bool piece = false;       ///< a triangle of a curved surface, whose ellipse is no leaf's
-  std::int32_t solid = -1;  ///< which it is of; -1: of none
+  bool piece = false;       ///< a triangle of a curved surface: its ellipse is no leaf's
+  std::int32_t solid = -1;  ///< the solid that it belongs to; -1: none
 
   Vec3d at(Vec2d p) const { return origin + across * p.x + along * p.y; }
 };
@@ -51,7 +51,7 @@ struct LeafSheets {
 /// Takes leaves one by one.
 class SheetCollector {
  public:
-  /// `known`: whose charts need not be looked at again; it does not change meanwhile.
+  /// Charts in `known` are not computed again; it must not change meanwhile.
   explicit SheetCollector(const SheetCollector* known = nullptr) : known_(known) {}
 
   /// `first`: where the leaf's first point lies in the world; `scale` multiplies its radii; `piece`
@@ -59,7 +59,7 @@ class SheetCollector {
   void take(const LeafMesh& leaf, const LeafEllipse& ellipse, const TextureSource& texture,
             const Eigen::Vector3d& first, double scale, bool piece);
 
-  /// The leaves taken from now on are of this closed surface, until end_solid(). `first` as above.
+  /// Leaves taken until end_solid() belong to this closed surface. `first` is as above.
   void begin_solid(std::span<const EigenTriangle> closed, const Eigen::Vector3d& first);
   void end_solid() { solid_ = -1; }
 
@@ -69,7 +69,7 @@ class SheetCollector {
   /// Makes room for so many leaves.
   void reserve(std::size_t leaves) { sheets_->sheets.reserve(leaves); }
 
-  /// All of them, sorted; `crown`: of the leaves but for strays, which are not to move others.
+  /// All leaves, sorted. `crown` is the box without strays, which must not move other leaves.
   std::shared_ptr<const LeafSheets> finish(const Box& crown);
 
  private:

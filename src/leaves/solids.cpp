@@ -11,7 +11,7 @@
 namespace leafhull {
 namespace {
 
-/// Cones over openings, together, against the rest of the surface: a half sphere is a solid.
+/// Cones over openings may have at most this share of the surface: a half sphere is a solid.
 constexpr double kMostOpen = 0.55;
 
 using Edge = std::pair<std::uint32_t, std::uint32_t>;  // the lesser first
@@ -22,8 +22,8 @@ struct Entry {
   auto operator<=>(const Entry&) const = default;
 };
 
-/// The faces with the same three corners count once where `once_each`, else where their number is
-/// odd.
+/// Keeps one of all faces with the same three corners: always if `once_each`, else only if their
+/// number is odd.
 std::vector<std::size_t> without_doubles(const std::vector<Entry>& entries, bool once_each) {
   std::vector<std::size_t> faces;
   for (std::size_t begin = 0; begin < entries.size();) {
@@ -49,7 +49,7 @@ std::vector<std::size_t> faces_once(const LeafMesh& component) {
   return odd.empty() ? without_doubles(entries, true) : odd;
 }
 
-/// The edges with an odd number of faces, in the direction of one of them.
+/// The edges with an odd number of faces, in the direction of one of these faces.
 std::vector<Edge> rim(const LeafMesh& component, const std::vector<std::size_t>& faces) {
   std::map<Edge, std::pair<std::size_t, Edge>> edges;
   for (const std::size_t face : faces) {
@@ -67,7 +67,7 @@ std::vector<Edge> rim(const LeafMesh& component, const std::vector<std::size_t>&
   return odd;
 }
 
-/// The openings: edges of a rim that hang together.
+/// The openings: connected edges of a rim.
 std::vector<std::vector<Edge>> openings(const std::vector<Edge>& rim, std::size_t points) {
   UnionFind sets(points);
   for (const auto& [a, b] : rim) sets.unite(a, b);
@@ -78,7 +78,7 @@ std::vector<std::vector<Edge>> openings(const std::vector<Edge>& rim, std::size_
   return all;
 }
 
-/// Turns as few faces as it takes for neighbours to agree across edges of two.
+/// Flips as few faces as needed for neighbours to agree across edges that have two faces.
 void turn_alike(std::vector<EigenTriangle>& surface) {
   const auto key = [](const Eigen::Vector3d& p) { return std::array{p.x(), p.y(), p.z()}; };
   using Point = std::array<double, 3>;

@@ -12,12 +12,12 @@ namespace leafhull {
 /// Union-find over numbers from 0; the least member stands for its set.
 class UnionFind {
  public:
-  /// Each number below `count` alone.
+  /// Starts with a set for each number below `count`.
   explicit UnionFind(std::size_t count) : parent_(count) {
     std::iota(parent_.begin(), parent_.end(), 0u);
   }
 
-  /// One more number, alone.
+  /// Adds one more number in a set of its own.
   std::uint32_t add() {
     parent_.push_back(static_cast<std::uint32_t>(parent_.size()));
     return parent_.back();

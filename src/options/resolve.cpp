@@ -30,7 +30,7 @@ struct BandValues {
 };
 constexpr BandValues kPaperBand = {0, 2, false};
 
-/// What a style stands for. SPEC: 4; Source: Figure 17.
+/// The values that a style stands for. SPEC: 4; Source: Figure 17.
 struct StyleValues {
   Method method;
   PointSource points;
@@ -42,7 +42,7 @@ struct StyleValues {
   double min_component;
 };
 
-// Luft and Deussen's spheres are not flattened: 1 keeps them round under another method, too.
+// Luft and Deussen's spheres are not flattened; a flatness of 1 keeps them round under any method.
 constexpr StyleValues kPaperStyles[] = {
     {Method::controlled, PointSource::vertices, 1.4, 2.0, {}, kPaperBand, 0.7, 0.4, 0},
     {Method::controlled, PointSource::vertices, 1.6, 2.0, {}, kPaperBand, 1.0, 0.4, 0},
@@ -57,7 +57,7 @@ constexpr StyleValues kStyles[] = {
     kPaperStyles[1],
     kPaperStyles[2],
 };
-/// The first styles with kernels at vertices, as they were before there were others.
+/// The first styles when kernels sit at vertices, as they were before kernels could sit elsewhere.
 constexpr StyleValues kStylesAtVertices[] = {
     {Method::controlled, PointSource::vertices, 2.5, {}, 0.92, kPaperBand, 0.8, 0.4, 0.001},
     kPaperStyles[0],
@@ -103,7 +103,8 @@ void check_contradictions(const Options& options) {
   once(options.band_high, options.band_high_percent, "--band-high");
 }
 
-/// Of resolved options. Ends of different kinds are compared once the densities are known.
+/// Checks the band of resolved options. Ends of different kinds are compared once the densities are
+/// known.
 void check_band(const Options& options) {
   const auto upright = [](const auto& low, const auto& high, const std::string& unit) {
     if (!low || !high || *low <= *high) return;

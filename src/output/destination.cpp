@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Where a chain of symbolic links ends; the end itself may not exist.
+/// The path where a chain of symbolic links ends; it may not exist.
 fs::path follow_links(const fs::path& name) {
   constexpr int kMostLinks = 40;  // as Linux does
   fs::path place = name;

@@ -11,7 +11,7 @@ namespace leafhull {
 /// A buffered, seekable file descriptor whose every failure is thrown as Error output.
 class FileBuffer : public std::streambuf {
  public:
-  /// @param name what errors call the file.
+  /// @param name the file's name in errors.
   FileBuffer(int descriptor, std::filesystem::path name);
 
  protected:
@@ -31,7 +31,7 @@ class FileBuffer : public std::streambuf {
 };
 
 /// An output stream over an open file descriptor, which it does not close. Any operation on it may
-/// throw Error output; what is written is in the file only after `flush()`.
+/// throw Error output; written data is in the file only after `flush()`.
 class FileStream : public std::ostream {
  public:
   FileStream(int descriptor, std::filesystem::path name)

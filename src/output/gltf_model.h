@@ -13,7 +13,7 @@
 
 namespace leafhull {
 
-/// A file with one buffer, and one scene, and nothing in them.
+/// A file with one empty buffer and one empty scene.
 tinygltf::Model new_gltf_model();
 
 /// Appends `elements` to the file's only buffer, as a buffer view and an accessor over all of it.
@@ -45,19 +45,19 @@ int add_accessor(tinygltf::Model& model, const std::vector<Element>& elements, i
   return static_cast<int>(model.accessors.size()) - 1;
 }
 
-enum class Normals { any_length, unit };  ///< of a mesh; unit ones stay bit for bit
+enum class Normals { any_length, unit };  ///< a mesh's normals; unit ones are kept bit for bit
 
-/// Appends the triangles of the file's material; the node that holds them has to move them to
-/// Mesh::origin. @throws Error internal: a normal without direction.
+/// Appends a mesh and its material; the node that holds it must move it to Mesh::origin.
+/// @throws Error internal: a normal without direction.
 int add_mesh(tinygltf::Model& model, const Mesh& mesh, Normals normals = Normals::any_length);
 
 /// Appends a root of the scene.
 int add_root(tinygltf::Model& model, tinygltf::Node node);
 
-/// What add_mesh() puts into the buffer, at most.
+/// The most bytes that add_mesh() adds to the buffer.
 std::size_t gltf_bytes(const Mesh& mesh);
 
-/// Whether the 32 bits of a GLB's sizes can tell how large it is.
+/// Whether a GLB of this size fits the format's 32-bit sizes.
 bool fits_glb(std::size_t buffer_bytes, std::size_t json_bytes);
 
 void write_glb(const tinygltf::Model& model, std::ostream& stream);

@@ -9,7 +9,7 @@
 
 namespace leafhull {
 
-/// What the single-sided material of shapes in glTF is called.
+/// The name of the single-sided material of shapes in glTF.
 inline constexpr std::string_view kLeafMaterial = "leaves";
 
 /// Its base colour for leaves of a linear colour.
@@ -18,7 +18,7 @@ inline std::array<double, 4> leaf_base_color(Vec3f colour) {
   return {decimal(colour.x), decimal(colour.y), decimal(colour.z), 1};
 }
 
-/// What meshes are called, by which is_shape() knows them.
+/// The name of meshes, by which is_shape() recognises them.
 inline constexpr std::string_view kShapeName = "abstract shape";
 
 }  // namespace leafhull

@@ -9,23 +9,23 @@
 
 namespace leafhull {
 
-/// What a file says of a mesh before its vertices follow: for meshes that are written as a stream
-/// because they are larger than memory.
+/// The data of a mesh that a file states before the vertices, for meshes that are streamed because
+/// they are larger than memory.
 struct MeshHead {
   std::uint64_t vertices = 0, triangles = 0;
   Vec3d origin;
   Box box;                      ///< of the positions, from the origin
-  std::optional<Vec3f> colour;  ///< of its material, linear; none: the green of leaves
+  std::optional<Vec3f> colour;  ///< its material's, linear; none: the green of leaves
 };
 
-/// Then come the vertices, position and normal, and the triangles, each with a byte 3 before its
-/// 32-bit indices.
+/// Writes the head of a PLY file. The vertices follow, position and normal, then the triangles,
+/// each with a byte 3 before its 32-bit indices.
 /// @param far_out whether positions are `double`, else `float`.
 void write_ply_head(std::uint64_t vertices, std::uint64_t triangles, bool far_out,
                     std::ostream& stream);
 
-/// The same scene as write_glb's. Then come the vertices, position and normal as floats, and
-/// triangles of 32-bit indices.
+/// Writes the head of a GLB with the same scene as write_glb's. The vertices follow, position and
+/// normal as floats, then the triangles as 32-bit indices.
 /// @throws Error output: it does not fit into the 4 GiB of a GLB.
 void write_glb_head(const MeshHead& mesh, std::ostream& stream);
 

@@ -96,7 +96,7 @@ std::vector<fs::path> named_files(const OutputFiles& files) {
   return named;
 }
 
-/// The times and that of writing all files but the report; the total stays last.
+/// Adds the time of writing all files except the report; the total stays last.
 std::vector<StageTime> with_write(std::vector<StageTime> times, double seconds) {
   if (times.empty()) return times;
   times.back().seconds += seconds;
@@ -104,7 +104,7 @@ std::vector<StageTime> with_write(std::vector<StageTime> times, double seconds) 
   return times;
 }
 
-/// How far floats are apart at the outermost vertex.
+/// The distance between adjacent floats at the outermost vertex.
 double float_step(const Mesh& mesh) {
   double farthest = 0;
   for (std::size_t i = 0; i < mesh.positions.size(); ++i) {

@@ -17,7 +17,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// The options, the ones that an extraction derives as it came to use them.
+/// The options; those that an extraction derives have the values that it used.
 Json parameters(const Report& report) {
   Json parameters = options_object(report.options);
   parameters["threshold"] = report.threshold;
@@ -113,7 +113,7 @@ Json report_object(const Report& report, const RunDescription& run) {
 }
 
 std::string report_json(const Report& report, const RunDescription& run) {
-  // A path may hold bytes that are no UTF-8; JSON may not.
+  // A path may hold bytes that are not UTF-8; JSON may not.
   return report_object(report, run).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -62,7 +62,7 @@ nlohmann::ordered_json rows_object(std::span<const RowOf<Struct, Members...>> ro
 /// Every option of an extraction.
 nlohmann::ordered_json options_object(const Options& options);
 
-/// Seconds by stage; a stage that ran more than once is one.
+/// Seconds by stage; runs of the same stage are summed.
 nlohmann::ordered_json seconds_object(const std::vector<StageTime>& times);
 
 /// The report as `report_json` prints it.

@@ -32,7 +32,7 @@ static_assert(std::atomic<SlotState>::is_always_lock_free);
 
 std::array<Slot, 64> slots;
 
-/// How many sections run; -1 while temporary files are being discarded.
+/// The number of running sections; -1 while temporary files are being discarded.
 std::atomic<int> uninterrupted{0};
 static_assert(std::atomic<int>::is_always_lock_free);
 
@@ -51,7 +51,7 @@ int claim_slot(const fs::path& destination) {
               "Write fewer files at once.");
 }
 
-/// .NAME.PID-COUNT.tmp, NAME cut where the whole would be too long for a file name.
+/// .NAME.PID-COUNT.tmp; NAME is cut if the whole would be too long for a file name.
 std::string temporary_name(const fs::path& destination) {
   static std::atomic<unsigned> count{0};
   const std::string number = std::to_string(::getpid()) + "-" + std::to_string(count++);
@@ -98,7 +98,7 @@ const char* TemporaryFile::path() const { return slots[static_cast<std::size_t>(
 void TemporaryFile::copy_permissions(const fs::path& existing) {
   struct stat status {};
   if (::stat(existing.c_str(), &status) != 0) return;
-  // The owner first: changing it may clear permission bits. Only a privileged user may do so.
+  // Change the owner first, as that may clear permission bits. Only a privileged user may do so.
   [[maybe_unused]] const int owned = ::fchown(descriptor_, status.st_uid, status.st_gid);
   [[maybe_unused]] const int permitted = ::fchmod(descriptor_, status.st_mode & 0777);
 }

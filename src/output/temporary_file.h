@@ -7,7 +7,7 @@
 
 namespace leafhull {
 
-/// A new file beside `destination`, known to discard_unfinished_outputs() from before it exists
+/// A new file beside `destination`. discard_unfinished_outputs() knows it from before it exists
 /// until it is removed with the object.
 class TemporaryFile {
  public:
@@ -23,7 +23,7 @@ class TemporaryFile {
   /// Gives the file the permissions and, where allowed, the owner of `existing`, if that exists.
   void copy_permissions(const std::filesystem::path& existing);
 
-  /// Brings the content to the disk and closes the descriptor. @throws Error output.
+  /// Flushes the content to disk and closes the descriptor. @throws Error output.
   void finish(const std::filesystem::path& destination);
 
  private:
@@ -31,7 +31,7 @@ class TemporaryFile {
   int descriptor_ = -1;
 };
 
-/// Brings the names in a folder to the disk: a rename survives a power cut only after this.
+/// Flushes the names in a folder to disk: only then does a rename survive a power cut.
 /// @throws Error output.
 void sync_folder(const std::filesystem::path& folder);
 

@@ -27,7 +27,7 @@ bool exchange(const char* a, const char* b) {
 void Transaction::write(const fs::path& name, const std::function<void(std::ostream&)>& writer) {
   const fs::path destination = resolve_destination(name);
   TemporaryFile file(destination);
-  file.copy_permissions(destination);  // before there is anything to be seen
+  file.copy_permissions(destination);  // before there is any content to read
   FileStream stream(file.descriptor(), name);
   writer(stream);
   stream.flush();
@@ -54,7 +54,7 @@ void Transaction::commit() {
     for (Entry& entry : entries_) entry.take_back();
     throw;
   }
-  entries_.clear();  // with the files that were replaced
+  entries_.clear();  // also removes the files that were replaced
 }
 
 void Transaction::Entry::put_in_place() {

@@ -14,18 +14,18 @@ namespace leafhull {
 /// its destination, and `commit` renames them. Without a commit nothing remains.
 class Transaction {
  public:
-  /// Lets `writer` fill what will become `name`. A symbolic link stays and its target is replaced;
+  /// Lets `writer` fill the file that will become `name`. A symbolic link stays, its target is
+  /// replaced;
   /// permissions of an existing file are kept where possible.
   /// @throws Error output, and whatever `writer` throws.
   void write(const std::filesystem::path& name, const std::function<void(std::ostream&)>& writer);
 
-  /// Takes a file that another program has filled, and that was made beside what will become
-  /// `name`.
+  /// Adds a file that another program has filled and that lies beside the future `name`.
   /// @throws Error output.
   void add(const std::filesystem::path& name, TemporaryFile file);
 
-  /// Puts every file in place. Should one fail, those before it are put back, except where the
-  /// file system cannot exchange two names.
+  /// Puts every file in place. If one fails, those before it are put back, unless the file system
+  /// cannot exchange two names.
   /// @throws Error output.
   void commit();
 

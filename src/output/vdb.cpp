@@ -73,8 +73,8 @@ std::string content_uuid(const openvdb::FloatGrid& grid) {
 }  // namespace
 
 void write_vdb(const openvdb::FloatGrid::ConstPtr& grid, std::ostream& stream) {
-  // Behind the magic number, three version numbers and a flag stands a random UUID: the one thing
-  // in the file that differs between two runs.
+  // After the magic number, three version numbers and a flag comes a random UUID, the only part of
+  // the file that differs between two runs.
   constexpr std::streamoff kUuidOffset = 8 + 3 * 4 + 1;
   SeekableArchive().write_to(stream, grid);
   stream.seekp(kUuidOffset);

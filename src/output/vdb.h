@@ -7,8 +7,8 @@
 
 namespace leafhull {
 
-/// Writes an OpenVDB file with this one grid: the same grid gives the same bytes. What the stream
-/// throws passes through.
+/// Writes an OpenVDB file with this one grid; the same grid gives the same bytes. Exceptions of the
+/// stream pass through.
 void write_vdb(const openvdb::FloatGrid::ConstPtr& grid, std::ostream& stream);
 
 }  // namespace leafhull

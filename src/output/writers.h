@@ -8,16 +8,16 @@
 
 namespace leafhull {
 
-// Each writes one whole file. What the stream throws passes through; a mesh that its format cannot
-// hold is an Error output.
+// Each function writes one whole file. Exceptions of the stream pass through; a mesh that the
+// format cannot hold throws Error output.
 
 /// Binary glTF 2.0: one node, moved to Mesh::origin, with one single-sided leaf-green material.
 void write_glb(const Mesh& mesh, std::ostream& stream);
 
-/// The same of a mesh that was read from such a file: its normals, unit already, stay bit for bit.
+/// As write_glb, for a mesh that was read from such a file: its unit normals stay bit for bit.
 void write_glb_again(const Mesh& mesh, std::ostream& stream);
 
-/// The same scene as JSON, its buffer embedded as a data URI: one file, a third larger than a GLB.
+/// The same scene as JSON with its buffer as a data URI: one file, a third larger than a GLB.
 void write_gltf(const Mesh& mesh, std::ostream& stream);
 
 /// Wavefront OBJ, `v`, `vn` and `f a//a`; the shortest digits that give the same number back.

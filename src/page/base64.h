@@ -10,7 +10,7 @@ namespace leafhull {
 
 std::string base64(std::span<const std::uint8_t> bytes);
 
-/// What stands in an `src` in place of an address. Source: RFC 2397.
+/// A data URI, which replaces the address in an `src`. Source: RFC 2397.
 std::string data_uri(std::string_view media_type, std::span<const std::uint8_t> bytes);
 
 }  // namespace leafhull

@@ -7,7 +7,7 @@
 
 namespace leafhull {
 
-/// An outcome, and how it is said.
+/// An outcome and its wording.
 nlohmann::json mark(Outcome outcome);
 
 /// The summary: each claim with its outcome on every tree in the first reading, and in how many

@@ -36,7 +36,7 @@ Chart chart(const ParameterFigures& figures, std::span<const ReadingStudy> readi
                            [](const StudyRow& row) { return row.off_site(); })}};
 }
 
-/// Rows by the two ratios that compare from tree to tree.
+/// Rows as points of the two ratios that can be compared between trees.
 ChartLine line(std::string name, std::span<const StudyRow> rows, const StudyRow& isotropic,
                std::uint64_t leaf_vertices) {
   ChartLine line{std::move(name), {}, {}};
@@ -47,7 +47,7 @@ ChartLine line(std::string name, std::span<const StudyRow> rows, const StudyRow&
   return line;
 }
 
-/// CTRLED on its way from L&D to UNCTRLED, beside the paper's.
+/// CTRLED on its way from L&D to UNCTRLED, together with the paper's CTRLED.
 Chart chart(const BandStudy& band, std::uint64_t leaf_vertices) {
   std::vector<StudyRow> way{band.isotropic};
   for (const BandRow& row : band.by_share) way.push_back(row.row);

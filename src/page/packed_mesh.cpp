@@ -10,7 +10,7 @@
 namespace leafhull {
 namespace {
 
-// A shape of 64 voxels has some 200 steps to a voxel.
+// A shape of 64 voxels then has about 200 steps per voxel.
 constexpr double kSteps = 16'383;
 
 struct PackedVertex {
@@ -24,7 +24,7 @@ std::vector<std::uint32_t> triangles_for_view(const Mesh& mesh) {
     indices.insert(indices.end(), triangle.begin(), triangle.end());
   }
   if (mesh.triangles.size() > kMostTriangles) {
-    constexpr float kMostError = 1;  // of the mesh's size: the number of triangles alone decides
+    constexpr float kMostError = 1;  // the mesh's size: only the number of triangles decides
     indices.resize(meshopt_simplify(indices.data(), indices.data(), indices.size(),
                                     &mesh.positions.front().x, mesh.positions.size(), sizeof(Vec3f),
                                     3 * kMostTriangles, kMostError));
@@ -32,7 +32,7 @@ std::vector<std::uint32_t> triangles_for_view(const Mesh& mesh) {
   return indices;
 }
 
-/// Puts vertices in the order in which `indices` first use them, and drops those they do not.
+/// Puts vertices in the order in which `indices` first use them, and drops unused ones.
 std::vector<Vec3f> order_for_compression(const Mesh& mesh, std::vector<std::uint32_t>& indices) {
   meshopt_optimizeVertexCacheStrip(indices.data(), indices.data(), indices.size(),
                                    mesh.positions.size());

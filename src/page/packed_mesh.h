@@ -19,11 +19,11 @@ struct PackedMesh {
   std::vector<std::uint8_t> vertex_buffer, index_buffer;
 };
 
-/// More triangles than this are simplified: they would not be seen, only loaded.
+/// Meshes of more triangles than this are simplified: the rest would cost loading time unseen.
 inline constexpr std::size_t kMostTriangles = 60'000;
 
 /// `mesh` has vertices.
-/// @param frame what pictures of several meshes have in common, not empty.
+/// @param frame the box that pictures of several meshes share, not empty.
 PackedMesh pack_mesh(const Mesh& mesh, const Box& frame);
 
 }  // namespace leafhull

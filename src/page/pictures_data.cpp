@@ -29,7 +29,7 @@ Json lines_data(const std::vector<std::string>& lines) {
   return data;
 }
 
-/// As JSON in a script element, where base64 needs no escape.
+/// The mesh as JSON for a script element, where base64 needs no escapes.
 std::string mesh_text(const PackedMesh& mesh) {
   const Json json = {{"vertices", mesh.vertices},
                      {"triangles", mesh.triangles},
@@ -40,7 +40,7 @@ std::string mesh_text(const PackedMesh& mesh) {
   return json.dump();
 }
 
-/// What a shape comes to, and where the view shows less than there is.
+/// The counts of a shape, and a note if the view shows fewer triangles than it has.
 std::string caption(const StudyRow& row) {
   if (row.empty) return "no surface";
   return grouped(row.metrics.dilated_voxels) + " dilated voxels, " + grouped(row.off_site()) +

@@ -161,14 +161,14 @@ Json parameters(const TreeStudy& tree, const TreePlots* plots) {
 
 // Where the band lies
 
-/// A shape by the two ratios that compare from tree to tree.
+/// The two ratios of a shape that can be compared between trees.
 Json ratios_cells(const StudyRow& row, const StudyRow& isotropic, std::uint64_t leaf_vertices) {
   const double dilated = share_dilated(row, isotropic);
   return {fixed(100 * share_lost(row, leaf_vertices), 1) + "%",
           std::isfinite(dilated) ? fixed(dilated, 2) : kNone};
 }
 
-/// One row between the ends of `band`, or one of these.
+/// A row of the band table: one of the ends of `band` or a shape between them.
 Json band_row(const std::string& label, const StudyRow& row, const BandStudy& band,
               std::uint64_t leaf_vertices) {
   const bool is_end = row.method != Method::controlled;

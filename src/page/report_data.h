@@ -9,8 +9,8 @@
 
 namespace leafhull {
 
-/// What report.html shows, by the names of its tags: plain text, every number formatted. `false`
-/// and what is empty leave their section out.
+/// The data for report.html by the names of its tags: plain text, every number formatted. Sections
+/// whose data is `false` or empty are left out.
 /// @param plots one for each tree, or none.
 nlohmann::json report_data(const Study& study, std::span<const TreePlots> plots);
 

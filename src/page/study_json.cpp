@@ -101,7 +101,7 @@ std::string study_json(const Study& study) {
                             {"date", study.date},           {"command", study.command},
                             {"machine", study.machine},     {"device", study.device},
                             {"seconds", study.seconds},     {"trees", list(study.trees)}};
-  // A path may hold bytes that are no UTF-8; JSON may not.
+  // A path may hold bytes that are not UTF-8; JSON may not.
   return json.dump(2, ' ', false, OrderedJson::error_handler_t::replace) + "\n";
 }
 

@@ -7,7 +7,7 @@
 
 namespace leafhull {
 
-/// All of a study but pictures and meshes as one JSON object, schema "leafhull-study/1".
+/// A study without its pictures and meshes as one JSON object, schema "leafhull-study/1".
 std::string study_json(const Study& study);
 
 }  // namespace leafhull

@@ -17,7 +17,7 @@ namespace {
 
 namespace mustache = kainjow::mustache;
 
-/// What is empty becomes false, since the template language takes an empty text for something.
+/// Turns empty values into false, since the template language treats an empty text as true.
 mustache::data to_mustache(const nlohmann::json& json) {
   if (json.is_boolean()) return json.get<bool>();
   if (json.empty()) return false;

@@ -5,7 +5,7 @@
 
 namespace leafhull {
 
-/// Plain text as HTML, symbols as in print: R_max and lambda_R with indices below the line.
+/// Plain text as HTML with symbols as in print: the indices of R_max and lambda_R are subscripts.
 std::string typeset(std::string text);
 
 }  // namespace leafhull

@@ -23,7 +23,7 @@ namespace {
 constexpr float kMargin = 0.06f;
 constexpr double kTurn = 360;
 
-/// Of the time that a picture takes, about.
+/// The rough share of a picture's time that rays take.
 double share_of_rays(Look look) { return look == Look::watercolour ? 0.5 : 1; }
 
 render::Viewpoint viewpoint(Viewpoint named) {
@@ -31,7 +31,7 @@ render::Viewpoint viewpoint(Viewpoint named) {
   return kViewpoints[static_cast<std::size_t>(named)];
 }
 
-/// Along the longer side of a picture, degrees; `angle` is along its height.
+/// The angle of view along a picture's longer side, degrees; `angle` is along its height.
 double longer_angle(double angle, double aspect) {
   constexpr double kHalfDegree = std::numbers::pi / 360;
   return std::atan(std::tan(angle * kHalfDegree) * std::max(1.0, aspect)) / kHalfDegree;
@@ -39,7 +39,7 @@ double longer_angle(double angle, double aspect) {
 
 render::Camera camera_at(const View& view, const render::Placement& placement, float aspect) {
   const auto in_scene = [&](Vec3d p) { return (p - placement.origin) * placement.scale; };
-  constexpr double kFarthest = 1e9;  // beyond it rays are no floats
+  constexpr double kFarthest = 1e9;  // beyond this, floats cannot hold rays
   if (!(length(in_scene(view.eye)) < kFarthest)) {
     throw Error(ErrorCode::usage, "the camera is too far from what it should draw",
                 "Give an eye nearer to it, in the model's units.");
@@ -48,7 +48,7 @@ render::Camera camera_at(const View& view, const render::Placement& placement, f
                          longer_angle(view.angle, static_cast<double>(aspect)), aspect);
 }
 
-/// Gives what is seen of a crown of several colours the colour of the leaves there.
+/// Gives the visible parts of a crown with several colours the colour of the leaves there.
 void colour_foliage(const Subject::Parts& parts, render::Buffers& buffers) {
   if (!parts.crown_colours) return;
   const auto colour_at = [&](Vec3f position) {
@@ -65,7 +65,7 @@ void colour_foliage(const Subject::Parts& parts, render::Buffers& buffers) {
   });
 }
 
-/// The colours of leaves that pigments are mixed for, linear.
+/// The leaves' colours for which pigments are mixed, linear.
 std::vector<Vec3f> tones_of(const Subject::Parts& parts) {
   if (parts.crown_colours) return parts.crown_colours->tones();
   return parts.leaf_colour ? std::vector{*parts.leaf_colour} : std::vector<Vec3f>{};

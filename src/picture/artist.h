@@ -10,13 +10,13 @@
 
 namespace leafhull {
 
-/// Draws pictures one after the other, and keeps what they share.
+/// Draws pictures one after the other and keeps the data that they share.
 class Artist {
  public:
-  /// Must outlive it.
+  /// `device` must outlive the artist.
   explicit Artist(Device& device) : device_(device) {}
 
-  /// As leafhull::draw, of options that are checked.
+  /// As leafhull::draw, for options that are already checked.
   Rendering draw(const Subject& subject, const PictureOptions& options,
                  const Progress& progress = {});
 
@@ -31,7 +31,7 @@ class Artist {
 /// Where a picture is taken from, in the subject's scene.
 render::Camera camera_of(const Subject::Parts& parts, const PictureOptions& options);
 
-/// The leaves before the camera, nearest or not.
+/// The leaves in front of the camera, including hidden ones.
 std::vector<watercolour::Stroke> strokes_of(const Subject::Parts& parts,
                                             const render::Camera& camera, int width, int height);
 

@@ -13,7 +13,7 @@ std::string size_text(int width, int height);
 /// @throws Error usage: a side out of range.
 void check_sides(const PictureOptions& options);
 
-/// @param kept of the host's bytes for each pixel, beside what drawing takes.
+/// @param kept bytes of the host's memory per pixel, besides those that drawing takes.
 /// @throws Error usage, as check_picture.
 void check_memory(const PictureOptions& options, const DeviceInfo* device, double kept);
 

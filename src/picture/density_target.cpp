@@ -11,10 +11,10 @@
 namespace leafhull {
 namespace {
 
-/// Light is looked for from this far above the surface, voxels: there the samples, between which N
-/// is a trilinear guess, are past the surface too.
+/// Rays to the light start this far above the surface, voxels. There the trilinear N, which is only
+/// an estimate, is outside the surface too.
 constexpr float kLift = 1.5f;
-/// Of T: how far N goes beyond it where a shadow is full.
+/// How far N exceeds T where a shadow is full, as a share of T.
 constexpr float kHard = 1e-6f;
 
 }  // namespace

@@ -9,7 +9,7 @@
 
 namespace leafhull {
 
-/// The surface N = T as rays of a scene meet it, and how open the places around it are.
+/// The surface N = T as a target for rays of a scene, and how open the places around it are.
 class DensityTarget final : public render::Target, public render::Surroundings {
  public:
   /// @param color of the foliage, linear.
@@ -19,8 +19,8 @@ class DensityTarget final : public render::Target, public render::Surroundings {
   void closest(std::span<const render::Ray> rays, std::span<render::Spot> spots) const override;
   void occluded(std::span<const render::Ray> rays, float reach,
                 std::span<std::uint8_t> answers) const override;
-  /// Of any surface in the scene: ambient occlusion is the highest of saturate((N - T) / T) on the
-  /// way to the sky.
+  /// Works for any surface in the scene: ambient occlusion is the highest saturate((N - T) / T) on
+  /// the way to the sky.
   void openness(std::span<const render::Spot> spots, std::span<const std::uint8_t> turns,
                 std::span<float> open) const override;
 
@@ -30,7 +30,7 @@ class DensityTarget final : public render::Target, public render::Surroundings {
 
   std::shared_ptr<const DirectSurface> surface_;
   Vec3d origin_;   ///< the scene's, voxels from the lattice's anchor
-  double voxels_;  ///< to a unit of the scene
+  double voxels_;  ///< per unit of the scene
   Vec3f color_;
 };
 

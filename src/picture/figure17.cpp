@@ -30,7 +30,7 @@ constexpr std::array<Row, 3> kRows{
      {Style::fat, Style::paper_fat, "(b) Fat abstract shape."},
      {Style::previous, Style::paper_previous, "(c) The previous method."}}};
 
-/// With one decimal, as the paper prints it, or as many as it takes.
+/// With one decimal as in the paper, or with as many as needed.
 std::string decimal(double value) {
   char text[32];
   const bool one = std::abs(10 * value - std::round(10 * value)) < 1e-6;
@@ -72,7 +72,7 @@ Options options_of(const Row& row, Plate plate, Options options) {
   return options;
 }
 
-/// What holds the leaves in every row, and the wood.
+/// A frame that holds the wood and the leaves of every row.
 Frame frame_of_rows(const TreeModel& tree, const LeafSet& leaves, Plate plate,
                     const Options& options) {
   double radius = 0;
@@ -126,7 +126,7 @@ Picture figure17(const std::shared_ptr<const TreeModel>& tree, const LeafSet& le
       const double done = (static_cast<double>(rows.size()) + share) / kRows.size();
       if (progress) progress(std::string(name(row.style(plate))) + ": " + std::string(stage), done);
     };
-    // A row is a surface and two pictures of it.
+    // Each row consists of a surface and two pictures of it.
     const auto part = [&](int before) {
       return [&tell, before](std::string_view stage, double share) {
         tell(stage, (before + share) / 3);

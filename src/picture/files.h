@@ -9,12 +9,12 @@
 
 namespace leafhull {
 
-/// The names of one run's pictures by what is written to them.
+/// The file names of one run's pictures, by format.
 struct FilePlan {
   std::vector<std::filesystem::path> png, exr;  ///< of a turntable without numbers
   std::vector<std::filesystem::path> films;
-  bool film_was_asked_for = false;  ///< else it comes with the frames
-  bool film_is_missing = false;     ///< it would come with them, but there is no ffmpeg
+  bool film_was_asked_for = false;  ///< by name; otherwise films come along with the frames
+  bool film_is_missing = false;     ///< a film would come along, but there is no ffmpeg
 };
 
 /// @throws Error usage, as check_pictures.

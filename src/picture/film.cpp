@@ -23,13 +23,14 @@
 namespace leafhull {
 namespace {
 
-/// Frames come from descriptor 0. The film goes to descriptor 3, which unlike a name is no new file
-/// where the old one has been removed meanwhile; the same frames make the same film.
+/// Frames come from descriptor 0. The film goes to descriptor 3: unlike a name, it cannot create a
+/// new file if the old one was removed meanwhile. The same frames make the same film.
 constexpr std::string_view kInput =
     "ffmpeg -nostdin -hide_banner -loglevel error -xerror -f rawvideo -pixel_format rgb24";
 constexpr std::string_view kOutput = "-fflags +bitexact -flags:v +bitexact -y file:/proc/self/fd/3";
 
-/// H.264 keeps its colours at half the size, so both sides must be even: paper where they are not.
+/// H.264 stores colours at half the size, so both sides must be even; odd sides are padded with
+/// white paper.
 constexpr std::string_view kMp4 =
     "-vf pad=ceil(iw/2)*2:ceil(ih/2)*2:color=white,format=yuv420p "
     "-c:v libx264 -preset medium -crf 18 -movflags +faststart -f mp4";
@@ -50,7 +51,7 @@ bool can_make_films() { return finds_program("ffmpeg"); }
 
 Film::Film(std::filesystem::path file, int width, int height, double frames_per_second)
     : name_(std::move(file)), file_(resolve_destination(name_)) {
-  std::array<int, 2> ends;  // unlike a pipe's, a socket's closing raises no signal here
+  std::array<int, 2> ends;  // unlike a pipe, a closed socket raises no signal here
   if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) {
     throw write_error(name_, errno);
   }

@@ -11,18 +11,18 @@
 
 namespace leafhull {
 
-/// Whether the program that makes films is there.
+/// Whether ffmpeg, which makes films, is installed.
 bool can_make_films();
 
-/// An .mp4 (H.264) or .webp that ffmpeg makes of frames while they are drawn. Until finish() it has
-/// a temporary name; without finish() nothing remains.
+/// An .mp4 (H.264) or .webp that ffmpeg makes from frames as they are drawn. It has a temporary
+/// name until finish(); without finish() nothing remains.
 class Film {
  public:
   /// @throws Error output: ffmpeg does not start, or the file cannot be made.
   Film(std::filesystem::path file, int width, int height, double frames_per_second);
   ~Film();
 
-  /// The next frame, of the film's size.
+  /// Adds the next frame, which has the film's size.
   /// @throws Error output: ffmpeg has stopped, and what it says.
   void add(const Picture& frame);
 

@@ -22,23 +22,23 @@ struct LeafCard {
   std::uint32_t leaf = 0;
 };
 
-/// Everything in its scene; what refers to each other stays together.
+/// All parts of a subject in its scene. Parts that refer to each other stay together.
 struct Subject::Parts {
   Report report;
   render::Placement placement;
-  std::vector<Vec3f> points;  ///< what named viewpoints hold, each with `reach` around it
+  std::vector<Vec3f> points;  ///< named viewpoints show these, with `reach` around each
   float reach = 0;
-  std::vector<LeafCard> leaves;  ///< by their number
+  std::vector<LeafCard> leaves;  ///< by leaf number
   LeafKind leaf_kind = LeafKind::broad;
   std::optional<Vec3f> leaf_colour;           ///< linear, mean; none: unknown
-  std::optional<CrownColours> crown_colours;  ///< where they differ
+  std::optional<CrownColours> crown_colours;  ///< if colours differ
 
-  bool as_drawn = false;  ///< a tree as its file draws it, which no painter paints
+  bool as_drawn = false;  ///< a tree as its file draws it, never in watercolour
 
   std::vector<std::shared_ptr<const TreeModel>> models;  ///< of wood, leaves or a shape
-  Mesh mesh;                                             ///< of the foliage, where it is drawn so
+  Mesh mesh;                                             ///< of foliage drawn as a mesh
   render::DeviceHandle embree;
-  std::optional<render::Scene> scene;  ///< all that is triangles
+  std::optional<render::Scene> scene;  ///< everything made of triangles
   std::optional<render::MeshTarget> triangles;
   std::optional<DensityTarget> density;
   std::vector<const render::Target*> targets;

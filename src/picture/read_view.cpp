@@ -25,7 +25,7 @@ constexpr std::string_view kLikeThis =
 constexpr std::string_view kGiveCamera =
     "Give a .json camera, or a .glb or .gltf file with a perspective camera in its scene.";
 
-/// Where a part of the camera stands in the file, for messages.
+/// The names of a camera's parts in its file, for messages.
 struct Places {
   std::string eye, target, up, angle;
 };

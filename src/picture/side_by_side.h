@@ -7,7 +7,7 @@
 
 namespace leafhull {
 
-/// The width of so many pictures of this width in a row.
+/// The width of a row of `count` pictures of this width.
 int row_width(int width, std::size_t count);
 
 /// Pictures of one size in a row, white between them.

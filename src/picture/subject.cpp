@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Trees, shapes and densities as what rays are cast against.
+// Turns trees, shapes and densities into subjects for rays.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -43,7 +43,7 @@ void place(const Frame& frame, Parts& parts) {
   parts.reach = static_cast<float>(frame.reach * parts.placement.scale);
 }
 
-/// The last step: what rays meet.
+/// The last step sets up what rays meet.
 Subject finish(std::shared_ptr<Parts> parts, const Surfaces& surfaces) {
   if (!surfaces.empty()) {
     parts->scene.emplace(parts->embree.get(), surfaces);
@@ -70,8 +70,8 @@ void add(const TreePart& part, render::Look look, const std::vector<bool>& cut_o
   parts.models.push_back(part.model);
 }
 
-/// One for each leaf, in the middle of its vertices and by its place in the file: nothing of it
-/// depends on how a moving tree sorts its leaves.
+/// One card for each leaf, at the middle of its vertices, known by its index in the file: cards do
+/// not depend on how a moving tree sorts its leaves.
 std::vector<LeafCard> cards_of(const LeafSet& leaves, const render::Placement& placement) {
   struct Sum {
     Vec3d positions, normals, majors;
@@ -82,7 +82,7 @@ std::vector<LeafCard> cards_of(const LeafSet& leaves, const render::Placement& p
   for (const LeafVertex& vertex : leaves.vertices) {
     Sum& sum = sums[leaves.order_in_file.empty() ? vertex.leaf : leaves.order_in_file[vertex.leaf]];
     if (!sum.any) sum.any = &vertex;
-    // Axes are known up to their signs.
+    // Axes are known only up to their signs.
     const auto along = [](Vec3f axis, Vec3f first) {
       return Vec3d(dot(axis, first) < 0 ? -axis : axis);
     };
@@ -105,8 +105,8 @@ std::vector<LeafCard> cards_of(const LeafSet& leaves, const render::Placement& p
   return cards;
 }
 
-/// Needles and fronds grow away from the stem, however their cards are cut: turns what is not
-/// slender itself in its own plane.
+/// Needles and fronds grow away from the stem, however their cards are cut. Cards that are not
+/// slender themselves are turned in their own plane.
 void point_outwards(LeafKind kind, std::vector<LeafCard>& cards) {
   constexpr float kSlender = 0.4f, kLeast = 0.3f, kDroop = 0.4f;
   Vec3d sum;

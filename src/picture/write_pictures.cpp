@@ -19,14 +19,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A turn takes six seconds where it has the frames for it.
+/// A turn takes six seconds if it has enough frames.
 double frames_per_second(int frames) { return std::clamp(frames / 6.0, 12.0, 30.0); }
 
 void write_bytes(const fs::path& file, const std::vector<std::uint8_t>& bytes) {
   write_file(file, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
-/// The films of a turntable. One that nobody asked for by name may fail, which is a warning.
+/// The films of a turntable. If a film was not asked for by name, its failure is only a warning.
 class Films {
  public:
   Films(const FilePlan& plan, int width, int height, int frames, std::vector<std::string>& warnings)
@@ -47,7 +47,7 @@ class Films {
     });
   }
 
-  /// Whether there are any.
+  /// Finishes the films. Returns whether there are any.
   bool finish() {
     attempt([&] {
       for (const auto& film : films_) film->finish();
@@ -72,7 +72,7 @@ class Films {
   std::vector<std::unique_ptr<Film>> films_;
 };
 
-/// Frames of an earlier, longer turntable would be taken for this one's.
+/// Warns of frames from an earlier, longer turntable: they look like this one's.
 void warn_of_older_frames(const FilePlan& plan, int frames, std::vector<std::string>& warnings) {
   for (const auto* pictures : {&plan.png, &plan.exr}) {
     for (const fs::path& file : *pictures) {
@@ -107,7 +107,7 @@ void add_times(std::vector<StageTime>& sums, const std::vector<StageTime>& times
   }
 }
 
-/// One subject as it is; several in one picture, without buffers.
+/// Draws one subject, or several in one picture, which then has no buffers.
 Rendering draw_row(Artist& artist, std::span<const Subject> subjects, const PictureOptions& options,
                    const Progress& progress) {
   if (subjects.size() == 1) return artist.draw(subjects.front(), options, progress);

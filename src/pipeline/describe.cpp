@@ -10,7 +10,7 @@
 namespace leafhull {
 namespace {
 
-/// A coverage is missed by more than this where many places have one density.
+/// A coverage counts as missed by more than this, which happens if many places share one density.
 constexpr double kCoverageMissed = 0.025;
 
 void warn_of_points(const LeafSet& leaves, const Prepared& prepared, Report& report) {
@@ -28,7 +28,7 @@ void warn_of_points(const LeafSet& leaves, const Prepared& prepared, Report& rep
     report.warnings.emplace_back(text);
   }
   if (!options.coverage) return;
-  // N is summed in floats: what lies this near to T may come out on either side on the lattice.
+  // N is summed in floats: densities this near to T may end up on either side on the lattice.
   const double above = report.threshold * (1 + 1e-5);
   const auto surely = std::count_if(there.begin(), there.end(),
                                     [&](float n) { return static_cast<double>(n) > above; });
@@ -37,7 +37,7 @@ void warn_of_points(const LeafSet& leaves, const Prepared& prepared, Report& rep
     return;
   }
   const auto in_solids = std::count(in_solid.begin(), in_solid.end(), true);
-  if (2 * in_solids > std::ssize(in_solid)) return;  // filled out
+  if (2 * in_solids > std::ssize(in_solid)) return;  // filled crowns leave out little
   if (options.points == PointSource::area) {
     std::snprintf(
         text, sizeof text,
@@ -53,7 +53,7 @@ void warn_of_points(const LeafSet& leaves, const Prepared& prepared, Report& rep
   report.warnings.emplace_back(text);
 }
 
-/// More than these is no mass but crumbs.
+/// A shape in more pieces than this warrants a warning.
 constexpr std::uint64_t kManyPieces = 50;
 
 void warn_of_pieces(std::uint64_t pieces, Report& report) {

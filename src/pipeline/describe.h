@@ -12,22 +12,22 @@
 
 namespace leafhull {
 
-/// What is known of an extraction before any work is done.
+/// A report of what is known about an extraction before any work is done.
 Report describe(const Options& resolved, const Grid& grid);
 
-/// What is known once T is: the leaves, the device, the density.
+/// A report of what is known once T is known: the leaves, the device, the density.
 Report describe(const Run& run, const Prepared& prepared);
 
-/// Adds what is known of a surface.
+/// Adds the counts of a surface's pieces to a report.
 void describe_pieces(const Pieces& pieces, Report& report);
 
-/// Adds what is known of a mesh and of the field that it is of.
+/// Adds the counts of a mesh and of the field that it comes from.
 void describe_mesh(const Mesh& mesh, const Sampled& sampled, Report& report);
 
-/// The places on the leaves with N below T, summed there.
+/// The number of places on the leaves where N, summed there, is below T.
 std::uint64_t off_site(const Prepared& prepared);
 
-/// Says why a surface is empty.
+/// @throws Error empty, always: it says why the surface is empty.
 [[noreturn]] void refuse_empty(const Prepared& prepared, const Field& field);
 
 }  // namespace leafhull

@@ -20,7 +20,7 @@ bool reaches(const Field& field) {
 }  // namespace
 
 struct DirectSurface::Impl {
-  /// The kernels and lists that the caster reads, of a tree alone.
+  /// The kernels and lists that the caster reads; only for a tree.
   std::shared_ptr<DensityFunction> density;
   std::shared_ptr<const BrickList> lists;
   Report report;
@@ -37,11 +37,11 @@ DirectSurface::DirectSurface(const LeafSet& leaves, const Options& options, Devi
   const Run run{leaves, device, watch};
   Stages stages(run);
   Options resolved = resolve(options);
-  resolved.adaptivity = 0;  // it is of meshes, and widens what is sampled
+  resolved.adaptivity = 0;  // it concerns meshes only, and would widen the band of samples
   Sliders sliders(run, stages, resolved);
 
   Prepared prepared = sliders.prepare();
-  std::optional<Pieces> pieces;  // that an erosion was measured by
+  std::optional<Pieces> pieces;  // those by which an erosion was measured
   Sampled sampled;
   constexpr auto kKeep = DensityFunction::Lists::keep;
   if (resolved.erosion) {
@@ -64,7 +64,7 @@ DirectSurface::DirectSurface(const LeafSet& leaves, const Options& options, Devi
   watch.start("bricks");
   d.grid.emplace(*d.field);
   if (const double smallest = *resolved.min_component; smallest > 0) {
-    // The lattice tells the pieces apart, as for a mesh; its polygons are not kept.
+    // As for a mesh, the lattice separates the pieces; its polygons are not kept.
     const ComponentCells cells = cells_of_components(mesh_bricks(*d.field), smallest);
     d.grid->draw_only(cells.kept, cells.dropped);
   }

@@ -14,12 +14,12 @@ namespace leafhull {
 /// The surface N = T, ready for rays without polygons.
 class DirectSurface {
  public:
-  /// Of a tree: stages 1 to 6 of Figure 8; N along a ray comes from the kernels. Components below
-  /// --min-component, and with it what the lattice does not see, are not drawn.
+  /// The surface of a tree, by stages 1 to 6 of Figure 8; N along a ray comes from the kernels.
+  /// Components below --min-component are not drawn, nor parts that the lattice does not resolve.
   /// @throws Error as extract does.
   DirectSurface(const LeafSet& leaves, const Options& options, Device& device,
                 const Progress& progress = {});
-  /// Of a sampled field, N between the samples trilinear. All of it is drawn.
+  /// The surface of a sampled field, trilinear between the samples. All of it is drawn.
   /// @throws Error empty: no sample reaches T; usage: spread too wide; device.
   DirectSurface(std::shared_ptr<const Field> field, Device& device);
   ~DirectSurface();
@@ -27,7 +27,7 @@ class DirectSurface {
 
   RayCaster& caster() const;
   const Lattice& lattice() const;
-  /// What the extraction did, as far as it went; of a tree alone.
+  /// The report of the extraction up to this stage; only for a tree.
   const Report& report() const;
 
  private:

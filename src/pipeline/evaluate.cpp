@@ -14,7 +14,7 @@ namespace {
 
 Coord corner(Coord cell, int i) { return cell + Coord{i >> 2 & 1, i >> 1 & 1, i & 1}; }
 
-/// An offset in a frame as it is added to the frame's origin.
+/// An offset as it is added to its frame's origin: unchanged for floats, else rounded to 2^-20.
 template <class T>
 Vec3d rounded(Vec3f offset) {
   if constexpr (std::is_same_v<T, float>) return Vec3d(offset);  // the sum is rounded
@@ -22,7 +22,7 @@ Vec3d rounded(Vec3f offset) {
   return Vec3d(r(offset.x), r(offset.y), r(offset.z)) * 0x1p-20;
 }
 
-/// Chunk by chunk: the lanes that fill up a chunk repeat one of its points.
+/// Visits lanes chunk by chunk; lanes that fill up a chunk repeat one of its points.
 template <class Visit>
 void for_each_lane(const PointBatch& batch, Visit&& visit) {
   tbb::parallel_for(std::size_t{0}, batch.chunks.size(), [&](std::size_t chunk) {

@@ -37,21 +37,21 @@ class DensityFunction {
   struct Sampled {
     Field field;
     std::uint64_t pairs = 0;  ///< kernel-sample pairs evaluated
-    BrickList lists;          ///< the kernels near each brick of the field, where asked for
+    BrickList lists;          ///< the kernels near each brick of the field, if kept
   };
-  enum class Lists { forget, keep };  ///< of the kernels near each brick
-  /// N where a surface N = T may be, for all `thresholds`, ascending (`dense`: wherever a support
-  /// reaches), blocks being grown by `margin` voxels before they are decided. `advance` is told the
-  /// share that is done. The field's own threshold is the lowest.
+  enum class Lists { forget, keep };  ///< whether to keep the lists of kernels near each brick
+  /// N where a surface N = T may be, for all `thresholds`, ascending; if `dense`, wherever a
+  /// support reaches. Blocks are grown by `margin` voxels before they are decided. `advance` gets
+  /// the share that is done. The field's own threshold is the lowest.
   Sampled sample_band(std::vector<double> thresholds, int margin, bool dense, Lists lists,
                       const std::function<void(double)>& advance);
-  /// The same for one threshold and the bricks that meet `range`.
+  /// As above for one threshold, in the bricks that meet `range`.
   Sampled sample_band(double threshold, const SampleBox& range);
 
   /// Moves points onto N = threshold within their cells, in at most `steps` steps, and returns the
   /// outward unit normals there, zero where the gradient vanishes.
   std::vector<Vec3f> snap(std::span<Vec3f> points, double threshold, int steps);
-  /// The same, to multiples of 2^-20 voxels, so that a point does not depend on the anchor.
+  /// As above, but points are multiples of 2^-20 voxels, so that they do not depend on the anchor.
   std::vector<Vec3f> snap(std::span<Vec3d> points, double threshold, int steps);
 
   const KernelSet& kernels() const { return kernels_; }

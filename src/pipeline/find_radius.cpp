@@ -11,18 +11,19 @@ namespace {
 
 constexpr double kClose = 0.004, kCloseEnough = 0.01;
 constexpr int kFewCalls = 6, kMostCalls = 16;
-/// How much the dilation grows as R_max grows e-fold, on trees of all kinds: 0.2 to 0.5.
+/// The growth of the dilation when R_max grows e-fold; it is 0.2 to 0.5 on trees of all kinds.
 constexpr double kSlope = 0.3, kLeastSlope = 0.1;
-/// Of the logarithm of the radius: the longest step into the unknown, as small radii are dear; and
-/// what the lattice cannot tell apart, at a slope and at a peak; and what a peak may hide in.
+/// Differences in the logarithm of the radius: the longest step beyond known radii, as small radii
+/// are expensive; the least that the lattice resolves, on a slope and at a peak; and the least gap
+/// that may hide a peak.
 constexpr double kLongestStep = 0.8, kShortest = 0.002, kShortestAtPeak = 0.1, kWideGap = 0.75;
 
 struct Try {
   double x = 0;       ///< the logarithm of the radius
-  double excess = 0;  ///< of the dilation over what is wanted
+  double excess = 0;  ///< the dilation minus the wanted one
 };
 
-/// The middle of the widest gap between tries; nowhere if none is wide.
+/// The middle of the widest gap between tries; none if no gap is wide.
 std::optional<double> widest_gap(std::vector<double> places, double least, double most) {
   places.insert(places.end(), {least, most});
   std::ranges::sort(places);
@@ -35,21 +36,21 @@ std::optional<double> widest_gap(std::vector<double> places, double least, doubl
   return middle;
 }
 
-/// Where to look next, or nowhere: between two tries of which one is too low and one too high, else
-/// on from the nearest. `tries` ascend by x; none is close.
+/// Where to try next, or none: between two tries of which one is too low and one too high, else
+/// beyond the nearest try. `tries` ascend by x; none is close enough yet.
 std::optional<double> next_nearby(const std::vector<Try>& tries, double least, double most) {
   for (std::size_t i = 1; i < tries.size(); ++i) {
     const Try &low = tries[i - 1], &high = tries[i];
     if (low.excess * high.excess > 0) continue;
     if (high.x - low.x < kShortest) return {};
     const double share = low.excess / (low.excess - high.excess);
-    // Away from both ends, so that the interval always shrinks.
+    // Stay away from both ends, so that the interval always shrinks.
     return std::lerp(low.x, high.x, std::clamp(share, 0.05, 0.95));
   }
   const auto nearest =
       std::ranges::min_element(tries, {}, [](const Try& t) { return std::abs(t.excess); });
   const bool is_first = nearest == tries.begin(), is_last = nearest + 1 == tries.end();
-  const double wanted = nearest->excess < 0 ? 1 : -1;  // how the dilation shall change
+  const double wanted = nearest->excess < 0 ? 1 : -1;  // the direction of the change
   if (is_first && is_last) {
     const double step = -nearest->excess / kSlope;
     return std::clamp(nearest->x + std::clamp(step, -kLongestStep, kLongestStep), least, most);
@@ -62,7 +63,7 @@ std::optional<double> next_nearby(const std::vector<Try>& tries, double least, d
         std::min(kLongestStep, wanted * -nearest->excess / std::max(slope, kLeastSlope));
     return std::clamp(nearest->x + (is_first ? -step : step), least, most);
   }
-  // A peak or a valley: into the wider gap beside it.
+  // At a peak or a valley, try the wider gap beside it.
   const double before = nearest->x - (nearest - 1)->x, after = (nearest + 1)->x - nearest->x;
   if (std::max(before, after) < kShortestAtPeak) return {};
   return before > after ? nearest->x - before / 2 : nearest->x + after / 2;
@@ -75,7 +76,7 @@ std::optional<RadiusFound> find_radius(
     const std::function<std::optional<double>(double radius)>& dilation_at) {
   const double least = std::log(kSmallestRadiusMax), most = std::log(kLargestRadiusMax);
   std::vector<Try> tries;
-  std::vector<double> places;  // of all tries, with those that gave no shape
+  std::vector<double> places;  // all tries, including those that gave no shape
   std::optional<RadiusFound> best;
   std::optional<double> x = std::clamp(std::log(start), least, most);
   for (int call = 0; call < kMostCalls && x; ++call) {

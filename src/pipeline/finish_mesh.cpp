@@ -38,7 +38,7 @@ void to_model_units(Mesh& mesh, const Lattice& lattice) {
   });
 }
 
-/// Where the gradient vanishes, the mean of the faces around the vertex.
+/// Where the gradient vanishes, takes the mean normal of the faces around the vertex.
 void fill_missing_normals(Mesh& mesh) {
   const auto is_missing = [](Vec3f normal) { return normal == Vec3f{}; };
   if (std::none_of(mesh.normals.begin(), mesh.normals.end(), is_missing)) return;

@@ -12,11 +12,11 @@
 namespace leafhull {
 namespace {
 
-/// Along the crown: what a lattice coordinate can count. The memory check refuses far fewer, but
-/// the isotropic density from the grid comes before it.
+/// The most voxels along the crown that a lattice coordinate can count. The memory check refuses
+/// far fewer, but it runs after the isotropic density from the grid.
 constexpr double kMostVoxels = 1e9;
 constexpr double kMostVoxelsOfGridDensity = 1e6 * (1 + 1e-9);
-/// A radius beyond this many crowns is a slip, and its support a lattice without end.
+/// A radius of more crowns than this is a mistake, and its support would make a huge lattice.
 constexpr double kLargestRadius = 100;
 
 std::string number(double value) {
@@ -100,7 +100,7 @@ Grid grid_of(const LeafSet& leaves, const Options& resolved) {
 
 Lattice hash_cells(const LeafSet& leaves, double radius_max) {
   constexpr double kSmallestPart = 1.0 / 256;
-  constexpr double kSmallestPartOfAll = 1.0 / (1 << 26);  // whose count a coordinate holds
+  constexpr double kSmallestPartOfAll = 1.0 / (1 << 26);  // a coordinate can count these
   const double cell = std::max({radius_max, leaves.crown.longest_side() * kSmallestPart,
                                 leaves.bounds.longest_side() * kSmallestPartOfAll});
   return Lattice::near(leaves.crown.low, cell);

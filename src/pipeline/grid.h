@@ -11,7 +11,7 @@ namespace leafhull {
 struct Grid {
   double radius_max = 0;  ///< R_max, model units
   double voxel_size = 0;  ///< h, model units
-  int resolution = 0;     ///< voxels along the crown, R_max on both sides
+  int resolution = 0;     ///< voxels along the crown grown by R_max on both sides
   Lattice lattice;        ///< anchored near the crown
 };
 

@@ -12,7 +12,7 @@
 namespace leafhull {
 namespace {
 
-/// Voxels along the crown grown by R_max where a dilation is counted. Source: p. 53.
+/// Voxels along the crown, grown by R_max, at which a dilation is counted. Source: p. 53.
 constexpr int kDilationResolution = 64;
 
 double dilation_voxel(const LeafSet& leaves, const Grid& grid) {

@@ -11,15 +11,15 @@ namespace leafhull {
 
 class Stages;
 
-/// The share of the leaves that a surface leaves outside, pieces having been dropped in the cells
-/// `dropped`.
+/// The share of the leaves that a surface leaves outside, after pieces in the cells `dropped` were
+/// dropped.
 double erosion_of(const Prepared& prepared, const Field& field, std::span<const Coord> dropped);
 
-/// What Metrics says of the shape at the prepared T. Samples it, 64 voxels along.
+/// Metrics::dilation of the shape at the prepared T. Samples the shape at 64 voxels along it.
 double dilation_of(const Run& run, const Prepared& prepared);
 
-/// The paper's metrics of a field, hollows filled, pieces having been dropped as above. `stages`
-/// keep the dilation.
+/// The paper's metrics of a field whose hollows are filled and whose pieces are dropped as above.
+/// `stages` keeps the dilation.
 Metrics measure(const Run& run, Stages& stages, const Prepared& prepared, const Field& field,
                 std::span<const Coord> dropped);
 

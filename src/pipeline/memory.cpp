@@ -17,10 +17,11 @@
 namespace leafhull {
 namespace {
 
-// Measured on real trees at 256 and 512 voxels, in thin and painterly: the grid, the mesh, and the
-// scratch of moving its vertices.
+// Measured on real trees at 256 and 512 voxels, in thin and painterly. It covers the grid, the mesh
+// and the scratch space for moving its vertices.
 constexpr double kBytesPerVoxel = 23;
-// Samples grow with this power of the resolution: as a surface of ever more detail, or as a volume.
+// Samples grow with this power of the resolution: a band like an ever finer surface, dense samples
+// like a volume.
 constexpr double kBandPower = 2.4;
 constexpr double kDensePower = 3;
 constexpr double kCoarseResolution = 128;
@@ -34,8 +35,8 @@ std::uint64_t meminfo_available() {
   return std::numeric_limits<std::uint64_t>::max();
 }
 
-/// What the control group (version 2) leaves, cached files not counted as used; no limit where
-/// there is none.
+/// Bytes that the control group (version 2) still allows, not counting cached files as used; the
+/// largest number if there is no limit.
 std::uint64_t cgroup_available() {
   const std::string folder = "/sys/fs/cgroup/";
   std::ifstream limit(folder + "memory.max"), used(folder + "memory.current");
@@ -61,14 +62,14 @@ std::uint64_t address_space_available() {
   return limit.rlim_cur - std::min<std::uint64_t>(limit.rlim_cur, used);
 }
 
-/// Samples that a lattice of voxel size `h` over the grown box holds.
+/// The number of samples on a lattice of voxel size `h` over the grown box.
 double dense_samples(const Box& bounds, double radius_max, double h) {
   const Vec3d size = bounds.size() + Vec3d(2 * radius_max, 2 * radius_max, 2 * radius_max);
   const auto along = [&](double length) { return length / h + kRootEdge; };
   return along(size.x) * along(size.y) * along(size.z);
 }
 
-/// Samples that would be evaluated on the lattice of `kernels`.
+/// The number of samples that would be evaluated on the lattice of `kernels`.
 double evaluated_samples(const KernelSet& kernels, const FieldOptions& options,
                          std::span<const double> thresholds) {
   double bricks = 0;

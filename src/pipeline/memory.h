@@ -17,11 +17,11 @@ std::uint64_t available_memory();
 
 /// Bytes of this process that are in memory now.
 std::uint64_t resident_memory();
-/// The most that there were.
+/// The most bytes of this process that were in memory at any time.
 std::uint64_t peak_memory();
 
-/// What a field for all `thresholds`, ascending, and its mesh would take, told before they are
-/// allocated: judged from the bricks that a coarse lattice would evaluate.
+/// Estimates the memory of a field for all `thresholds`, ascending, and its mesh before they are
+/// allocated, from the bricks that a coarse lattice would evaluate.
 class FieldMemory {
  public:
   FieldMemory(std::span<const Kernel> kernels, std::shared_ptr<const SpatialHash> hash,
@@ -30,13 +30,13 @@ class FieldMemory {
 
   bool fits() const { return needed_ <= available_; }
 
-  /// @throws Error usage where it does not fit: how much is needed and the largest resolution that
+  /// @throws Error usage: it does not fit; says how much is needed and the largest resolution that
   ///         fits.
   void check() const;
 
  private:
   int resolution_;
-  double power_;               ///< with which the samples grow with the resolution
+  double power_;               ///< the power of the resolution with which samples grow
   double needed_, available_;  ///< bytes
 };
 

@@ -13,11 +13,11 @@ namespace leafhull {
 struct Pieces {
   Polygons polygons;  ///< none where no sample reaches T
   std::uint64_t kept = 0, dropped = 0;
-  std::vector<Coord> dropped_cells;  ///< as ComponentCount has them
+  std::vector<Coord> dropped_cells;  ///< as in ComponentCount
 };
 
-/// `mesher` is for surfaces without adaptivity; both give the same vertices and quads, in orders of
-/// their own.
+/// `mesher` applies to surfaces without adaptivity; both meshers give the same vertices and quads
+/// in different orders.
 Pieces polygonise(const Run& run, const Field& field, const Options& resolved, Mesher mesher);
 
 }  // namespace leafhull

@@ -13,13 +13,13 @@
 
 namespace leafhull {
 
-/// A tree's kernels and T: what steps 1 to 5 of Figure 8 make of it.
+/// A tree's kernels and T, the results of steps 1 to 5 of Figure 8.
 struct Prepared {
   Options options;  ///< resolved
   Grid grid{};
-  FieldOptions field{};  ///< what its stages were given, and what sampling is to be given
+  FieldOptions field{};  ///< the options of its stages, and those for sampling
   std::shared_ptr<LeafPoints> points{};
-  std::shared_ptr<const SpatialHash> hash{};                ///< of the points
+  std::shared_ptr<const SpatialHash> hash{};                ///< of the leaf points
   std::shared_ptr<std::vector<float>> isotropic_density{};  ///< N_iso, one per leaf point
   DensityStatistics statistics{};
   std::shared_ptr<std::vector<Kernel>> kernels{};  ///< one per leaf point
@@ -27,7 +27,7 @@ struct Prepared {
   double threshold = 0;                            ///< T
 };
 
-/// What `shared` holds, without a copy where no one else has it.
+/// The value that `shared` holds, moved instead of copied if there is no other owner.
 template <class Value>
 Value taken(std::shared_ptr<Value> shared) {
   if (shared.use_count() == 1) return std::move(*shared);

@@ -7,7 +7,7 @@
 
 namespace leafhull {
 
-/// The tree that stages work on, the device that they work with, and who is told of it.
+/// The tree and the device that stages work with, and the stopwatch that reports their progress.
 struct Run {
   const LeafSet& leaves;
   Device& device;

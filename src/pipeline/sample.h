@@ -17,20 +17,20 @@ namespace leafhull {
 struct Sampled {
   Field field;                               ///< its own threshold is the lowest
   std::uint64_t pairs = 0;                   ///< kernel-sample pairs evaluated
-  std::shared_ptr<const BrickList> lists;    ///< of the kernels near each brick, where asked for
-  std::shared_ptr<DensityFunction> density;  ///< that was sampled
+  std::shared_ptr<const BrickList> lists;    ///< of the kernels near each brick, if kept
+  std::shared_ptr<DensityFunction> density;  ///< the density that was sampled
 };
 
-/// What sample() would take.
+/// The memory that sample() would take.
 FieldMemory field_memory(const Run& run, const Prepared& prepared,
                          std::span<const double> thresholds);
 
-/// Samples for all of `thresholds`, ascending.
-/// @throws Error usage where it does not fit in memory.
+/// Samples the density for all of `thresholds`, ascending.
+/// @throws Error usage: it does not fit in memory.
 Sampled sample(const Run& run, const Prepared& prepared, const std::vector<double>& thresholds,
                DensityFunction::Lists lists = DensityFunction::Lists::forget);
 
-/// The shape as step 7 takes it: hollows filled where the options say so.
+/// The field as step 7 needs it, with hollows filled if the options say so.
 Field without_hollows(const Run& run, const Prepared& prepared, Field field);
 
 }  // namespace leafhull

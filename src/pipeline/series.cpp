@@ -23,11 +23,11 @@ struct Entry {
   FieldOptions field;
 };
 
-/// Where R_max or T is still to be found, no other is known to share a field.
+/// Whether an entry cannot share a field, as its R_max or T must still be found.
 bool is_alone(const Options& options) { return options.erosion || options.dilation; }
 
-/// The series in groups that can share a field, so ordered that the next shares the most with the
-/// last.
+/// The series in groups that can share a field, ordered so that each group shares the most with the
+/// previous one.
 std::vector<std::vector<Entry>> groups_of(const LeafSet& leaves, std::span<const Options> series) {
   std::vector<Entry> entries;
   for (std::size_t i = 0; i < series.size(); ++i) {
@@ -48,7 +48,7 @@ std::vector<std::vector<Entry>> groups_of(const LeafSet& leaves, std::span<const
   return groups;
 }
 
-/// An entry under way.
+/// An entry whose kernels and T are prepared.
 struct PreparedEntry {
   std::size_t index;
   Prepared prepared;
@@ -61,14 +61,14 @@ std::vector<double> thresholds_of(std::span<const PreparedEntry> group) {
   return thresholds;
 }
 
-/// Extracts entry by entry and hands each to the visitor until that says no.
+/// Extracts entry by entry and hands each to the visitor until it returns false.
 class Series {
  public:
   Series(const LeafSet& leaves, Device& device, const SeriesVisitor& visit,
          const Progress& progress)
       : watch_(progress), run_{leaves, device, watch_}, stages_(run_), visit_(visit) {}
 
-  /// False where the visitor ends the series, as below.
+  /// Returns false if the visitor ends the series, as do the functions below.
   bool extract(std::span<const Entry> group) {
     if (is_alone(group.front().options)) return extract_alone(group.front());
     std::vector<PreparedEntry> prepared;
@@ -84,7 +84,8 @@ class Series {
   }
 
  private:
-  /// Entries ascending by T; where the field of all does not fit in memory, halves share one.
+  /// Extracts entries ascending by T. If one field for all does not fit in memory, each half shares
+  /// one.
   bool extract_at(std::span<const PreparedEntry> group) {
     const Prepared& first = group.front().prepared;
     const std::vector<double> thresholds = thresholds_of(group);
@@ -131,7 +132,7 @@ class Series {
     return visit_(index, std::move(result));
   }
 
-  /// What kept `work` from its end: options that do not suit the tree.
+  /// Why `work` failed, as the options do not suit the tree; empty if it succeeded.
   template <class Work>
   static std::string failure_of(Work&& work) {
     try {

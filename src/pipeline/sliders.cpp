@@ -59,7 +59,7 @@ void Sliders::check_dilation(const Prepared& prepared) {
   if (std::abs(found - *options_.dilation) > kSliderError) refuse_dilation(found, options_);
 }
 
-/// With R_max such that the dilation is as asked for, T leaving out `below_`.
+/// Prepares with the R_max that gives the requested dilation, where T leaves out `below_`.
 Prepared Sliders::solve() {
   if (!finds_radius_) return stages_.prepare(options_, below_);
   const double crown_unit = run_.leaves.crown.longest_side() / kCrownUnits;
@@ -80,7 +80,7 @@ Prepared Sliders::solve() {
   };
   const std::optional<RadiusFound> found = find_radius(*options_.dilation, start, dilation_at);
   if (!found) std::rethrow_exception(refusal);
-  // What is the nearest may be moved by an erosion yet.
+  // If no R_max has the dilation, the nearest is kept; the erosion may still move the dilation.
   if (!found->reached) finds_radius_ = false;
   if (options_.radius_max != found->radius) (void)dilation_at(found->radius);
   return std::move(last.value());
@@ -98,13 +98,13 @@ SampledSurface Sliders::surface(Prepared& prepared, Mesher mesher, DensityFuncti
         return surface;
       }
     }
-    prepared = {};  // what it shares is given back before the next is made
+    prepared = {};  // releases shared memory before the next one is made
     prepared = solve();
   }
 }
 
-/// Whether a surface has the erosion that is asked for. If not, sets what T is to leave out next:
-/// beside that there are pieces that are dropped, and what the lattice does not see.
+/// Whether a surface has the requested erosion. If not, sets the share that T must leave out next:
+/// dropped pieces and parts that the lattice does not resolve add to it.
 bool Sliders::is_eroded(const Prepared& prepared, const SampledSurface& surface, bool is_last) {
   constexpr double kLeast = 1e-3;  // of the leaves, below T
   if (!options_.erosion) return true;

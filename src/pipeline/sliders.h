@@ -7,31 +7,31 @@
 
 namespace leafhull {
 
-/// A sampled field, hollows filled, and its surface.
+/// A sampled field with its hollows filled, and its surface.
 struct SampledSurface {
   Sampled sampled;
   Pieces pieces;
 };
 
 /// Prepares a tree, and finds R_max for the dilation and T for the erosion that its options ask
-/// for; where they ask for neither there is nothing to find.
+/// for, if any.
 class Sliders {
  public:
-  /// Both must outlive it.
+  /// `run` and `stages` must outlive it.
   Sliders(const Run& run, Stages& stages, Options resolved);
 
-  /// R_max and T as far as the leaves alone tell them.
+  /// Prepares the tree with R_max and T as far as the leaves alone determine them.
   /// @throws Error usage: an erosion or a dilation that this tree cannot have.
   Prepared prepare();
 
-  /// The surface. Where the lattice shows an erosion that is too far from what is asked for,
-  /// `prepared` is replaced by one with another T and, with a dilation, another R_max.
+  /// The surface. If its erosion on the lattice is too far from the requested one, replaces
+  /// `prepared` by one with another T and, if there is a dilation, another R_max.
   /// @throws Error usage: as sample(); no T has that erosion.
   SampledSurface surface(Prepared& prepared, Mesher mesher,
                          DensityFunction::Lists lists = DensityFunction::Lists::forget);
 
-  /// prepare() sees to it, but with an erosion, which surface() may still correct.
-  /// @throws Error usage: the dilation that is asked for was not found.
+  /// Called by prepare() or, with an erosion, by surface(), which may still correct the dilation.
+  /// @throws Error usage: the requested dilation was not found.
   void check_dilation(const Prepared& prepared);
 
  private:

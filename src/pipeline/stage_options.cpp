@@ -14,7 +14,7 @@ FieldOptions field_options(const Options& resolved, const Grid& grid) {
                                on_lattice ? grid.voxel_size : 0};
   return {.kernels = {density, control_options(resolved)},
           .voxel_size = grid.voxel_size,
-          .margin = resolved.adaptivity > 0 ? 2 : 1,  // adaptive meshing looks further
+          .margin = resolved.adaptivity > 0 ? 2 : 1,  // adaptive meshing needs more
           .dense = resolved.dense};
 }
 

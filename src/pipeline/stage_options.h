@@ -7,44 +7,43 @@
 #include "leafhull/options.h"
 #include "pipeline/grid.h"
 
-// What the stages of Figure 8 whose results are kept depend on beside the tree. Such a stage is
-// given its struct and nothing else of the options, so what that does not name cannot change its
-// result.
+// The options that the stages of Figure 8 with kept results depend on, besides the tree. Such a
+// stage gets only its struct, so an option that the struct lacks cannot change its result.
 
 namespace leafhull {
 
-/// What the leaf points depend on.
+/// The options that the leaf points depend on.
 struct PointsOptions {
   PointSource source = PointSource::area;
-  double spacing = 0;     ///< of parts of area, model units; 0: vertices
-  double radius_max = 0;  ///< R_max, model units, of parts of area; 0: vertices
+  double spacing = 0;     ///< of parts of leaf area, model units; 0: points are vertices
+  double radius_max = 0;  ///< R_max, model units, for parts of leaf area; 0: points are vertices
   auto operator<=>(const PointsOptions&) const = default;
 };
 
-/// What the spatial hash depends on.
+/// The options that the spatial hash depends on.
 struct HashOptions {
   PointsOptions points;
   double radius_max = 0;  ///< model units
   auto operator<=>(const HashOptions&) const = default;
 };
 
-/// What N_iso depends on.
+/// The options that N_iso depends on.
 struct DensityOptions {
   HashOptions hash;
   int falloff = 2;  ///< k
   DensitySource source = DensitySource::exact;
-  double voxel_size = 0;  ///< model units, of a density from the lattice; 0: summed at the points
+  double voxel_size = 0;  ///< model units, for N_iso from the lattice; 0: summed at the points
   auto operator<=>(const DensityOptions&) const = default;
 };
 
-/// What the kernels depend on.
+/// The options that the kernels depend on.
 struct KernelsOptions {
   DensityOptions density;
   ControlOptions control;
   auto operator<=>(const KernelsOptions&) const = default;
 };
 
-/// What the sampled field depends on, beside the thresholds.
+/// The options that the sampled field depends on, besides the thresholds.
 struct FieldOptions {
   KernelsOptions kernels;
   double voxel_size = 0;  ///< h, model units
@@ -53,7 +52,7 @@ struct FieldOptions {
   auto operator<=>(const FieldOptions&) const = default;
 };
 
-/// The options of the stages up to the field, one in the other.
+/// The options of all stages up to the field, nested.
 FieldOptions field_options(const Options& resolved, const Grid& grid);
 
 }  // namespace leafhull

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Steps 1 to 5 of Figure 8, p. 53. Each step is a function of what it is given alone.
+// Steps 1 to 5 of Figure 8, p. 53. Each step is a function of its arguments alone.
 #include "pipeline/stages.h"
 
 #include <utility>
@@ -22,7 +22,7 @@ SpatialHash hash_of(const LeafSet& leaves, const LeafPoints& points, const HashO
   return {positions_of(points.points), hash_cells(leaves, options.radius_max)};
 }
 
-/// N of `kernels`, summed at places.
+/// N of `kernels`, summed at `places`.
 std::vector<float> density_at(const Run& run, std::span<const Vec3d> places,
                               std::span<const Kernel> kernels,
                               std::shared_ptr<const SpatialHash> hash,
@@ -48,7 +48,7 @@ std::vector<float> isotropic_density_of(const Run& run, const LeafPoints& points
   return density.interpolated_at(local(places, lattice));
 }
 
-/// Whether the kernels at the places on the leaves are those that N_iso was summed of, there.
+/// Whether N at the places on the leaves equals N_iso: same kernels, summed at the same places.
 bool is_isotropic_density(const LeafSet& leaves, const KernelsOptions& options) {
   return options.control.method == Method::isotropic &&
          options.density.source == DensitySource::exact &&

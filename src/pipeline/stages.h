@@ -11,15 +11,15 @@
 
 namespace leafhull {
 
-/// The last result of a stage, and what it was computed from.
+/// The last result of a stage, and the key that it was computed from.
 template <class Key, class Value>
 class Kept {
  public:
-  /// The value by `work`, or the last one if it was for the same key.
+  /// Returns the last value if it has the same key, else computes one by `work`.
   template <class Work>
   std::shared_ptr<Value> get(const Key& key, Work&& work) {
     if (key_ != key) {
-      forget();  // gives its memory back before the next is made
+      forget();  // frees its memory before the next one is made
       value_ = std::make_shared<Value>(work());
       key_ = key;
     }
@@ -36,22 +36,22 @@ class Kept {
   std::shared_ptr<Value> value_;
 };
 
-/// Steps 1 to 5 of the paper's Figure 8 on one tree, again and again: a stage runs only where what
-/// it depends on, its options, has changed since it last did.
+/// Runs steps 1 to 5 of the paper's Figure 8 on one tree repeatedly. A stage runs only if the
+/// options that it depends on have changed since its last run.
 class Stages {
  public:
   /// `run` must outlive it.
   explicit Stages(const Run& run) : run_(run) {}
 
-  /// Prepares the tree with options that have an R_max. For an erosion, T leaves the share `below`
-  /// of the leaves below it.
+  /// Prepares the tree with options that have an R_max. For an erosion, the share `below` of the
+  /// leaves has a density below T.
   /// @throws Error as grid_of and threshold_of do.
   Prepared prepare(const Options& resolved, double below);
 
   /// Returns dilation_of(), which is kept too.
   double dilation(const Prepared& prepared);
 
-  /// Forgets all results, so that those that were handed out belong to their holders alone.
+  /// Forgets all results, so that results already returned have no other owner.
   void forget() { *this = Stages(run_); }
 
  private:

@@ -30,7 +30,7 @@ class Stopwatch {
     if (progress_) progress_(stage_, done);
   }
 
-  /// Ends the running stage; the times since the last call, a stage's together, the total last.
+  /// Ends the running stage. Returns the times since the last call by stage, the total last.
   std::vector<StageTime> finish() {
     stop();
     double total = 0;

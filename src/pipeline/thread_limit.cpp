@@ -8,7 +8,7 @@ namespace leafhull {
 struct ThreadLimit::Control {
   explicit Control(int threads)
       : control(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads)) {}
-  tbb::global_control control;  ///< TBB knows it by its place: it is never moved
+  tbb::global_control control;  ///< never moved, as TBB knows it by its address
 };
 
 ThreadLimit::ThreadLimit(int threads) {

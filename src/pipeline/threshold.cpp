@@ -28,7 +28,7 @@ double threshold_for(const ThresholdOptions& options, const LeafDensity& there) 
   return clear_of_sheets(all, threshold, *options.coverage);
 }
 
-/// T that leaves the share `erosion` below it, for what the options ask.
+/// The T that leaves the share `erosion` below it. Errors name the erosion in the options.
 double threshold_for_erosion(const ThresholdOptions& options, double erosion,
                              const LeafDensity& there) {
   const std::span<const float> density = there.density;

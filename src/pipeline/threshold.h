@@ -9,23 +9,23 @@
 
 namespace leafhull {
 
-/// Both sliders, erosion and dilation, keep what was asked for within this.
+/// Erosion and dilation come out within this of the requested values.
 inline constexpr double kSliderError = 0.01;
 
-/// What T depends on beside the density: as in Options.
+/// The options that T depends on besides the density; members are those of Options.
 struct ThresholdOptions {
   std::optional<double> threshold, percent, coverage, erosion;
   PointSource points = PointSource::area;
 };
 ThresholdOptions threshold_options(const Options& resolved);
 
-/// N at the places on the leaves, and which of them are on the surface of a crown that is filled.
+/// N at the places on the leaves, and which of these lie on the surface of a filled crown.
 struct LeafDensity {
   std::span<const float> density;
   const std::vector<bool>& in_solid;
 };
 
-/// T. `mean` is that of N_iso; for an erosion, T leaves the share `below` of the leaves below it.
+/// T. `mean` is the mean of N_iso. For an erosion, the share `below` of the leaves is below T.
 /// @throws Error usage: no T leaves out that share, or only one that tears a sheet; or T is too
 ///         small for a float.
 double threshold_of(const ThresholdOptions& options, double mean, const LeafDensity& there,

@@ -12,7 +12,7 @@
 namespace leafhull {
 namespace {
 
-/// Rounds of Lloyd's method; more even out little.
+/// Rounds of Lloyd's method; more would gain little.
 constexpr int kRounds = 6;
 
 using Places = std::span<const Eigen::Vector2d>;
@@ -38,10 +38,10 @@ void halve(Places samples, std::span<std::uint32_t> members, std::size_t count, 
   halve(samples, members.subspan(cut), count - first, visit);
 }
 
-/// The nearest of some seeds, which lie in the cells of a grid.
+/// Finds the nearest of some seeds by a grid of cells.
 class NearestSeed {
  public:
-  /// `edge` of a cell: about what seeds are apart.
+  /// `edge` of a cell is about the distance between seeds.
   NearestSeed(Places seeds, double edge) : seeds_(seeds), edge_(edge) {
     Eigen::Array2d high = seeds.front();
     low_ = high;
@@ -63,14 +63,14 @@ class NearestSeed {
     double nearest = std::numeric_limits<double>::infinity();
     const int x = std::clamp(cell(p[0], 0), 0, size_[0] - 1);
     const int y = std::clamp(cell(p[1], 1), 0, size_[1] - 1);
-    // How far it is, in cells, to the side of its own cell; less than 0 where it lies beyond all.
+    // The distance, in cells, from `p` to the side of its cell; negative outside the grid.
     const auto to_side = [&](int axis, int at) {
       const double into = (p[axis] - low_[axis]) / edge_ - at;
       return std::min(into, 1 - into);
     };
     const double to_sides = std::min(to_side(0, x), to_side(1, y));
     for (int ring = 0; ring < std::max(size_[0], size_[1]); ++ring) {
-      const double least = std::max(ring - 1 + to_sides, 0.0) * edge_;  // to what is in this ring
+      const double least = std::max(ring - 1 + to_sides, 0.0) * edge_;  // to any seed in this ring
       if (ring > 0 && nearest <= least * least) break;
       for (int i = std::max(x - ring, 0); i <= std::min(x + ring, size_[0] - 1); ++i) {
         const bool side = i == x - ring || i == x + ring;
@@ -106,7 +106,7 @@ class NearestSeed {
   std::vector<std::uint32_t> first_, members_;
 };
 
-/// What the samples that are nearest to each seed sum to.
+/// Sums over the samples that are nearest to a seed.
 struct Sums {
   double count = 0;
   Eigen::Vector2d first = Eigen::Vector2d::Zero();
@@ -129,8 +129,8 @@ std::vector<Sums> sums_around(Places seeds, Places samples, double edge) {
   return sums;
 }
 
-/// What a seed is apart from its neighbours, about: the root of the area of a part, as far as the
-/// box around the samples tells.
+/// The approximate distance between neighbouring seeds: the root of a part's area, estimated from
+/// the box around the samples.
 double spacing(Places samples, std::size_t count) {
   Eigen::Array2d low = samples.front(), high = low;
   for (const Eigen::Vector2d& p : samples) {

@@ -9,8 +9,8 @@
 
 namespace leafhull {
 
-/// A point with the ellipse of second moments: half axes of two standard deviations in the plane
-/// across `normal`, none below `least_radius`. `moments`: central ones, over the area.
+/// A leaf point with the ellipse of second moments: half axes of two standard deviations in the
+/// plane across `normal`, none below `least_radius`. `moments` are central, over the area.
 inline LeafPoint ellipse_of(Vec3d centre, double area, const Eigen::Vector3d& normal,
                             const Eigen::Matrix3d& moments, double least_radius) {
   const Eigen::Vector3d first = normal.unitOrthogonal();

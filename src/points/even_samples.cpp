@@ -9,7 +9,7 @@
 namespace leafhull {
 namespace {
 
-/// Cells along each side of a chart's grid: where it begins and where it ends.
+/// Cells along each side of a chart's grid: from the coarsest grid to the finest.
 constexpr int kCoarsestGrid = 16;
 constexpr int kFinestGrid = 4096;
 

@@ -8,8 +8,8 @@
 
 namespace leafhull {
 
-/// Points of equal area on what is visible of a chart, row by row: those of a grid over its box
-/// that lie in one of its triangles. At least `least`, where it has any extent; else its middle.
+/// Points of equal area on the visible part of a chart, row by row: those of a grid over its box
+/// that lie in a triangle. There are at least `least`; a chart without extent gives its middle.
 std::vector<Vec2d> even_samples(const LeafChart& chart, std::size_t least);
 
 }  // namespace leafhull

@@ -17,19 +17,19 @@
 namespace leafhull {
 namespace {
 
-/// A surface is filled from this thickness over R_max on.
+/// A surface is filled if its thickness over R_max is larger than this.
 constexpr double kThick = 0.5;
 /// A cell's edge over R_max, and samples along it.
 constexpr double kCellOverRadius = 0.28;
 constexpr int kSamplesPerCell = 4;
 constexpr std::uint64_t kSamplesOfCell = kSamplesPerCell * kSamplesPerCell * kSamplesPerCell;
-/// Radii of the points over R_max, to which control caps them, however flat it makes kernels: what
-/// is filled in has no shape of its own.
+/// Radii of the points over R_max. Control caps them at R_max, however flat it makes other kernels:
+/// the filling has no shape of its own.
 constexpr double kRound = 1e3;
-/// With more cells than this those deep inside are joined eight to one.
+/// If there are more cells than this, those deep inside are joined eight to one.
 constexpr std::size_t kManyCells = 100'000;
 constexpr double kMostCells = 10'000'000;
-/// What is deeper than this over R_max does not reach the surface with its kernels.
+/// Kernels deeper than this over R_max do not reach the surface.
 constexpr double kDeep = 2;
 
 using Triangle = std::array<Vec3d, 3>;
@@ -53,15 +53,15 @@ struct Cell {
 };
 using Cells = std::unordered_map<Key, Cell, Hash>;
 
-/// Where a line along x, at a place of a lattice in y and z, meets a surface.
+/// Where a line along x through a lattice point in y and z meets a surface.
 struct Crossing {
   std::int32_t y, z;  // steps
   double x;           // model units
   auto operator<=>(const Crossing&) const = default;
 };
 
-/// Of the point (y, z) against the edge from a to b, seen along x: the same number for both
-/// triangles that share an edge, but for its sign, so that a line meets one of them or neither.
+/// On which side of the edge from a to b the point (y, z) lies, seen along x. The two triangles at
+/// an edge get the same number but for its sign, so that a line meets exactly one or neither.
 double side(const Vec3d& a, const Vec3d& b, double y, double z) {
   const bool turned = std::pair(b.y, b.z) < std::pair(a.y, a.z);
   const Vec3d &from = turned ? b : a, &to = turned ? a : b;
@@ -81,7 +81,7 @@ double at(std::int32_t sample, double step) { return (sample + 0.5) * step; }
 void cross_triangle(const Triangle& triangle, double step, std::vector<Crossing>& crossings) {
   const auto& [a, b, c] = triangle;
   const Vec3d normal = cross(b - a, c - a);
-  if (normal.x == 0) return;  // seen from its edge
+  if (normal.x == 0) return;  // seen edge-on
   const auto [low_x, high_x] = std::minmax({a.x, b.x, c.x});
   const auto [low_y, high_y] = std::minmax({a.y, b.y, c.y});
   const auto [low_z, high_z] = std::minmax({a.z, b.z, c.z});
@@ -104,8 +104,8 @@ Key cell_of_sample(std::int32_t x, std::int32_t y, std::int32_t z) {
   return {x >> 2, y >> 2, z >> 2};
 }
 
-/// The cells of the world's lattice that a solid meets. Along a line every second crossing leaves
-/// it.
+/// The cells of the world's lattice that a solid meets. Along a line, every second crossing leaves
+/// the solid.
 Cells cells_of(const LeafSolid& solid, double step) {
   std::vector<Crossing> crossings;
   for (const Triangle& triangle : solid.triangles) cross_triangle(triangle, step, crossings);
@@ -150,7 +150,7 @@ Cells joined_inside(const Cells& cells) {
     }
     deep = std::move(deeper);
   }
-  // The large cells are told from the others by a place that these have not.
+  // Large cells get keys that no other cell has.
   Cells joined;
   for (const auto& [key, cell] : cells) {
     constexpr std::int32_t kLarge = 1 << 30;

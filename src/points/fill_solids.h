@@ -12,10 +12,10 @@ namespace leafhull {
 /// therefore filled. `radius_max`: R_max, model units.
 bool is_filled(const LeafSolid& solid, double radius_max);
 
-/// Points in the cells of the world's lattice that a solid meets, each at the middle of what it
-/// holds there and with that share of the solid's leaf area: as if the leaves were spread evenly
-/// over its volume. Their kernels are spheres of R_max under every method.
-/// @throws Error usage where it would take more than ten million.
+/// Points in the cells of the world's lattice that a solid meets, as if its leaves were spread
+/// evenly over its volume: each lies at the middle of the solid's part in the cell and has that
+/// share of its leaf area. Their kernels are spheres of R_max under every method.
+/// @throws Error usage: it would take more than ten million.
 std::vector<LeafPoint> fill(const LeafSolid& solid, double radius_max);
 
 }  // namespace leafhull

@@ -16,10 +16,10 @@
 namespace leafhull {
 namespace {
 
-/// Of spacing^2: a part below this area is joined to its neighbours.
+/// A part of less area, in spacing^2, is joined to its neighbours.
 constexpr double kSmall = 0.25;
-/// And a cell above this is full, but for one with so few parts: a flat sheet whose parts happen to
-/// lie in its corners has as many in it, and joined they would show.
+/// A cell with more area, in spacing^2, is full unless it has at most kPartsOfASheet parts: a flat
+/// sheet whose parts lie in the cell's corners has as many there, and joined they would show.
 constexpr double kFull = 3;
 constexpr std::ptrdiff_t kPartsOfASheet = 4;
 
@@ -31,10 +31,10 @@ struct Entry {
 
 Eigen::Vector3d to_eigen(const Vec3f& v) { return Eigen::Vector3f(v.x, v.y, v.z).cast<double>(); }
 
-/// Area, first and second moments, and the directions of some parts together.
+/// The sums of some parts' area, first and second moments, and directions.
 class Sum {
  public:
-  /// `origin`: near the parts.
+  /// `origin` should lie near the parts.
   explicit Sum(Vec3d origin) : origin_(origin) {}
 
   void add(const LeafPoint& part) {

@@ -7,22 +7,21 @@
 
 namespace leafhull {
 
-/// Where the kernels sit, and where the density is asked about.
+/// Where the kernels sit, and where the density is evaluated.
 struct LeafPoints {
   std::vector<LeafPoint> points;  ///< in an order that depends on the geometry alone
-  /// Places that stand for equal shares of the leaves: their vertices, or even samples of their
-  /// visible area, those of strays left out. A coverage is a share of these.
+  /// Places that each stand for an equal share of the leaves: their vertices, or even samples of
+  /// their visible area without strays. A coverage is a share of these.
   std::vector<Vec3d> samples;
-  std::vector<bool>
-      in_solid;     ///< of each sample, whether it lies on a solid that is filled; or none
-  double area = 0;  ///< of all points, model units squared; 0 where they are vertices
+  std::vector<bool> in_solid;  ///< for each sample, whether it lies on a filled solid; or none
+  double area = 0;             ///< of all points, model units squared; 0 if they are vertices
 };
 
-/// Spacings below R_max over this make parts show: kernels of radius R_max around them no longer
-/// add up to an even sheet.
+/// The least R_max in spacings. With a smaller R_max, kernels around parts no longer add up to an
+/// even sheet, and parts show.
 inline constexpr double kLeastRadius = 2.5;
 
-/// A point at every leaf vertex, which has no area: the paper's way.
+/// A point without area at every leaf vertex, as in the paper.
 LeafPoints vertex_points(const LeafSet& leaves);
 
 /// Parts of visible leaf area of about spacing^2 each, SPEC: 1b. A leaf is cut into

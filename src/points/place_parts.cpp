@@ -21,9 +21,9 @@ namespace leafhull {
 namespace {
 
 constexpr std::size_t kMostParts = 10'000'000;
-/// Of a chart, for each part that is cut from it.
+/// Samples of a chart for each part that is cut from it.
 constexpr std::size_t kSamplesPerPart = 40;
-/// Steps, to a doubling, in which leaves' proportions are told apart.
+/// Steps per doubling in which the proportions of leaves are compared.
 constexpr double kProportionSteps = 16;
 constexpr double kMostDoublings = 20;
 /// A strip of length L has R_u = L / sqrt 3; no part is longer than twice the spacing.
@@ -32,7 +32,7 @@ constexpr double kLongest = 2;
 
 Eigen::Vector3d to_eigen(const Vec3d& v) { return {v.x, v.y, v.z}; }
 
-/// Into how many parts a leaf is cut. Rounding does not make one more.
+/// The number of parts that a leaf is cut into. Rounding does not add one.
 double parts_of(const LeafSheet& sheet, double spacing) {
   const double by_area = std::ceil(sheet.area / (spacing * spacing) * (1 - 1e-9));
   const double length = kLengthOverRadius * static_cast<double>(sheet.radius_major);
@@ -51,7 +51,7 @@ struct Cut {
     const Vec3d x = sheet.across, y = sheet.along;
     const double width = length(x), skew = dot(x, y) / width;
     const double height = std::sqrt(std::max(dot(y, y) - skew * skew, 0.0));
-    const auto steps = [](double v) {  // of a sliver as of a leaf that is none
+    const auto steps = [](double v) {  // bounded even for slivers
       const double most = kMostDoublings * kProportionSteps;
       if (!std::isfinite(v)) return 0;
       return static_cast<int>(std::lround(std::clamp(kProportionSteps * v, -most, most)));
@@ -59,7 +59,7 @@ struct Cut {
     return {sheet.chart, count, steps(skew / height), steps(std::log2(height / width))};
   }
 
-  /// From the chart to a plane where lengths are as in space, but for scale.
+  /// Maps the chart to a plane in which lengths are as in space, up to scale.
   Eigen::Matrix2d to_plane() const {
     const double height = std::exp2(log_height / kProportionSteps);
     Eigen::Matrix2d map;
@@ -84,7 +84,8 @@ std::vector<FlatPart> cut_chart(const LeafChart& chart, const Cut& cut) {
   return parts;
 }
 
-/// A leaf has its own ellipse; a triangle of a surface is a part of it like others.
+/// The one part of an uncut leaf, which keeps its own ellipse. A triangle of a curved surface is
+/// treated like any other part.
 LeafPoint whole(const LeafSheet& sheet, const LeafChart& chart, double spacing) {
   const auto least = static_cast<float>(sheet.piece ? kLeastRadius * spacing : 0);
   return {sheet.at(chart.centre),

@@ -13,13 +13,13 @@
 namespace leafhull {
 namespace {
 
-/// So many tell T for a coverage of 0.98 to within a percent: fewer would move the surface with the
-/// way in which leaves happen to be tessellated.
+/// This many give T for a coverage of 0.98 to within a percent. With fewer, the surface would
+/// depend on how leaves happen to be tessellated.
 constexpr std::size_t kSamples = 1 << 15;
-/// Places on a chart to choose from.
+/// The least number of places on a chart to choose from.
 constexpr std::size_t kLeastPlaces = 64;
 
-/// The samples are at equal steps of the area, leaf by leaf; of each leaf those from `first` on.
+/// The samples of one leaf, [first, end). Samples lie at equal steps of the area, leaf by leaf.
 struct Taken {
   std::size_t sheet, first, end;
   double before;  ///< the area of the leaves before
@@ -79,7 +79,7 @@ Samples samples_of(const LeafSheets& sheets, const Box& crown) {
     const LeafSheet& sheet = sheets.sheets[t.sheet];
     const std::vector<Vec2d>& on_chart = places[sheet.chart];
     for (std::size_t i = t.first; i < t.end; ++i) {
-      // How far into the leaf's own area the sample lies.
+      // The share of the leaf's area that lies before the sample.
       const double into = ((static_cast<double>(i) + 0.5) * step - t.before) / sheet.area;
       const auto place = static_cast<std::size_t>(std::clamp(into, 0.0, 1.0) *
                                                   static_cast<double>(on_chart.size()));

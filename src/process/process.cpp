@@ -19,7 +19,7 @@
 namespace leafhull {
 namespace {
 
-/// Descriptors again, above all those that they are to become.
+/// Duplicates of descriptors, numbered above all those that they will become.
 class OutOfTheWay {
  public:
   explicit OutOfTheWay(const std::vector<int>& files) {

@@ -11,7 +11,7 @@ namespace leafhull {
 /// Whether PATH finds a program of that name.
 bool finds_program(const std::string& name);
 
-/// A program that PATH finds, running. It knows the locale of nobody, and is killed with the object
+/// A running program that PATH found. It ignores the user's locale, and is killed with the object
 /// unless it has been waited for.
 class Process {
  public:
@@ -24,7 +24,7 @@ class Process {
   Process(const Process&) = delete;
   Process& operator=(const Process&) = delete;
 
-  /// Until it ends. Whether it says that it did its work.
+  /// Waits until it ends. Returns whether it reports success.
   /// @throws std::system_error.
   bool wait();
 

@@ -11,9 +11,9 @@ namespace leafhull::render {
 namespace {
 
 constexpr double kRadian = std::numbers::pi / 180;
-constexpr float kTanHalfView = 0.11f;  // of the picture's longer side
+constexpr float kTanHalfView = 0.11f;  // along the picture's longer side
 
-/// A frustum plane, pushed outward until it touches what the picture holds.
+/// A frustum plane, pushed outwards until everything in the picture lies behind it.
 struct Plane {
   Vec3f normal;  ///< outward, not normalised
   float offset = -HUGE_VALF;
@@ -21,7 +21,7 @@ struct Plane {
   void include(Vec3f centre, float reach) {
     offset = std::max(offset, dot(normal, centre) + reach * length(normal));
   }
-  /// A ball on its way around a vertical axis.
+  /// Includes a ball that circles a vertical axis at `radius`.
   void include_turning(Vec3f centre, float radius, float reach) {
     const float towards = radius * std::hypot(normal.x, normal.z);
     offset = std::max(offset, dot(normal, centre) + towards + reach * length(normal));
@@ -53,7 +53,7 @@ Camera towards(Viewpoint viewpoint, float aspect, float tan_half_view) {
   return camera;
 }
 
-/// `include(plane)` shows each plane all that the picture holds.
+/// `include(plane)` must include everything that the picture holds in each plane.
 template <class Function>
 Camera framing(float aspect, float margin, Viewpoint viewpoint, Function&& include) {
   Camera camera = towards(viewpoint, aspect, kTanHalfView);

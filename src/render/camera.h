@@ -19,15 +19,15 @@ struct Camera {
   }
 };
 
-/// Where a camera stands as seen from its subject, degrees.
+/// The direction in which a camera stands from its subject, degrees.
 struct Viewpoint {
   float azimuth;    ///< about the vertical from +z towards +x
   float elevation;  ///< above the horizon
 };
 inline constexpr Viewpoint kFront{0, 0}, kThreeQuarter{32, 9}, kTop{0, 90};
 
-/// The camera with a long lens whose picture of `aspect` (width / height) holds balls of radius
-/// `reach` around `points` with `margin`, a part of the picture's width and height, on each side.
+/// A camera with a long lens whose picture of `aspect` (width / height) holds balls of radius
+/// `reach` around `points`, leaving `margin`, a share of width and height, on each side.
 Camera frame(std::span<const Vec3f> points, float aspect, float margin = 0.06f, float reach = 0,
              Viewpoint viewpoint = kThreeQuarter);
 
@@ -36,7 +36,7 @@ struct Turntable {
   Camera camera;
   Vec3f axis;  ///< a point of the vertical axis
 
-  /// The camera after it went `degrees` about the axis, from +z towards +x.
+  /// The camera after moving `degrees` about the axis, from +z towards +x.
   Camera at(double degrees) const;
 };
 
@@ -46,9 +46,10 @@ Turntable turntable(std::span<const Vec3f> points, float aspect, float margin = 
                     float reach = 0, Viewpoint viewpoint = kThreeQuarter);
 
 /// The camera at `eye` that looks at `target`, both in model space.
-/// @param up what is up in the picture; need not be orthogonal
+/// @param up the direction that is up in the picture; need not be orthogonal to the view
 /// @param angle_of_view along the picture's longer side, degrees, between 0 and 180
-/// @throws Error usage: eye and target are one point, up lies along the view, or the angle is none
+/// @throws Error usage: eye and target are one point, up lies along the view, or the angle is out
+/// of range
 Camera look_at(Vec3d eye, Vec3d target, Vec3d up, double angle_of_view, float aspect,
                const Placement& placement = {});
 

@@ -16,7 +16,7 @@ constexpr std::uint8_t kInk = 34, kQuietInk = 104;
 struct Layout {
   int columns = 1, rows = 0;
   int picture_width = 0, picture_height = 0;
-  int lines = 0;  ///< of the longest label
+  int lines = 0;  ///< in the longest label
   Type title, label;
   int cell = 0;  ///< the width of a column
   int gap, margin, line_height, title_height = 0;
@@ -32,7 +32,7 @@ struct Layout {
       for (const std::string& line : entry.lines) widest = std::max(widest, label.width(line));
     }
     cell = static_cast<int>(std::ceil(widest));
-    // A title wider than the pictures moves them apart.
+    // A title wider than the row of pictures spreads them apart.
     const int room = static_cast<int>(std::ceil(title.width(title_text))) - (columns - 1) * gap;
     cell = std::max(cell, (room + columns - 1) / columns);
     if (!title_text.empty()) title_height = static_cast<int>(2 * title.size());

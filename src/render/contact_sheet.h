@@ -12,7 +12,7 @@ struct SheetSize {
   int width = 0, height = 0;
 };
 
-/// The size of contact_sheet()'s picture; of the pictures' pixels nothing is read.
+/// The size of the picture that contact_sheet() makes; reads no pixels of the pictures.
 SheetSize contact_sheet_size(std::string_view title, std::span<const LabelledPicture> pictures,
                              int columns);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A ray per pixel, one of the key light's and one sample of the sky. Pixels of a square take turns
-// over sixteen directions and share what they found; only at edges are there more rays.
+// Casts a ray per pixel, one to the key light and one sample of the sky. The pixels of a square
+// take sixteen directions in turn and share their results; only edges get more rays.
 #include "render/draw_buffers.h"
 
 #include <tbb/parallel_for.h>
@@ -23,19 +23,19 @@ constexpr int kTile = 4;  // pixels of a square of kTile x kTile look in differe
 constexpr int kTurns = Surroundings::kTurns;
 static_assert(kTile * kTile == kTurns);
 constexpr std::size_t kBatch = 1 << 16;  // rays
-constexpr std::size_t kGrain = 256;      // that one thread takes at a time
-constexpr double kLookShare = 0.75;      // of the time, about; the rest is for edges
+constexpr std::size_t kGrain = 256;      // items that one thread takes at a time
+constexpr double kLookShare = 0.75;      // share of the time, roughly; the rest is for edges
 
-/// How much of the light arrives at a point, 0..1.
+/// The shares of both lights that arrive at a point, 0..1.
 struct Light {
   float key = 0, open = 0;
 };
 
-/// A place of a surface.
+/// A place on a surface.
 struct Point {
   Object object;
   Vec3f position, normal;
-  float per_reach;  ///< how far before or behind it another surface begins, inverted
+  float per_reach;  ///< 1 / the difference in depth that means another surface
 };
 
 class BufferPainter {
@@ -89,7 +89,8 @@ class BufferPainter {
     int x, y;
   };
 
-  /// Ray `i` of a band that begins with row `first` of tiles; those of a tile follow each other.
+  /// The pixel of ray `i` in a band that begins with tile row `first`; rays of a tile are
+  /// consecutive.
   Pixel pixel_of(int first, std::size_t i) const {
     const int tile = static_cast<int>(i / kTurns), turn = static_cast<int>(i % kTurns);
     return {tile % tiles_across_ * kTile + turn % kTile,
@@ -150,7 +151,7 @@ class BufferPainter {
     return light;
   }
 
-  /// Rows of tiles, through the centres of their pixels.
+  /// Casts rays through the centres of the pixels in some rows of tiles.
   void look(int first, int rows) {
     const std::size_t count = std::size_t{kTurns} * tiles_across_ * rows;
     std::vector<Ray> rays(count);
@@ -184,7 +185,7 @@ class BufferPainter {
   }
   float per_reach(float depth) const { return 1 / (4 * pixel_ * depth); }
 
-  /// How much two points belong to one surface, 0..1.
+  /// How likely two points belong to one surface, 0..1.
   float likeness(const Point& a, const Point& b) const {
     const float turned = dot(a.normal, b.normal);
     if (a.object != b.object || !(turned > 0)) return 0;
@@ -192,7 +193,7 @@ class BufferPainter {
     return std::max(0.0f, 1 - apart * a.per_reach) * turned * turned;
   }
 
-  /// Every pixel takes the mean light of its surface around it, every turn counted once.
+  /// Gives every pixel the mean light of its surface nearby, which has each turn once.
   void share() {
     std::vector<float> key = buffers_.key, open = buffers_.open;
     tbb::parallel_for(0, buffers_.height, [&](int y) {
@@ -238,7 +239,7 @@ class BufferPainter {
     return false;
   }
 
-  /// Tile by tile, so that neighbours follow each other.
+  /// Lists the edge pixels tile by tile, so that neighbours are close together.
   void find_edges() {
     const int tiles_down = (buffers_.height + kTile - 1) / kTile;
     std::vector<std::vector<std::uint32_t>> rows(tiles_down);
@@ -256,7 +257,7 @@ class BufferPainter {
     buffers_.samples.resize(edge_rays_ * buffers_.edges.size());
   }
 
-  /// More rays for some of the edges.
+  /// Casts the extra rays of some edges.
   void look_around(std::size_t first, std::size_t count) {
     const std::span edges = std::span(buffers_.edges).subspan(first, count);
     const std::span samples =
@@ -288,8 +289,8 @@ class BufferPainter {
     return {static_cast<int>(index % width), static_cast<int>(index / width)};
   }
 
-  /// Gives the sample the light of that pixel around it which is most like it; false where there
-  /// is none.
+  /// Gives a sample the light of the neighbouring pixel that is most like it; false if none is like
+  /// it.
   bool light_like(Pixel pixel, EdgeSample& sample) const {
     const Point here{sample.object, sample.position, sample.normal, per_reach(sample.depth)};
     float best = 0;
@@ -306,7 +307,7 @@ class BufferPainter {
     return best > 0;
   }
 
-  /// Light of its own for what no pixel's centre sees, such as a twig.
+  /// Samples the light of surfaces that no pixel's centre sees, such as twigs.
   void light_alone(std::span<EdgeSample> samples, std::span<const Spot> spots,
                    std::span<const std::uint8_t> lit) const {
     std::vector<Spot> alone;
@@ -338,7 +339,7 @@ class BufferPainter {
   const Camera& camera_;
   std::size_t edge_rays_;
   int shares_;
-  std::vector<Vec2f> places_;  ///< of an edge's rays in its pixel
+  std::vector<Vec2f> places_;  ///< where an edge's rays lie in its pixel
   float pixel_;                ///< its size at a depth of 1
   int tiles_across_;
   std::vector<Vec3f> key_turns_;

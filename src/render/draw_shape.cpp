@@ -30,7 +30,7 @@ Picture draw(const Mesh& mesh, const Frame& view, const Box& box, int width, int
       draw_buffers(targets, MeshSurroundings(targets), camera, width, height, kEffort));
 }
 
-/// The box of what a frame holds.
+/// The box of a frame's points, grown by their reach.
 Box box_of(const Frame& frame) {
   Box box;
   for (const Vec3d p : frame.points) box.include(p);

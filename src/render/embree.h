@@ -16,7 +16,7 @@ using DeviceHandle = std::unique_ptr<RTCDeviceTy, Release>;
 using SceneHandle = std::unique_ptr<RTCSceneTy, Release>;
 using GeometryHandle = std::unique_ptr<RTCGeometryTy, Release>;
 
-/// @throws Error internal where Embree does not start.
+/// @throws Error internal: Embree does not start.
 DeviceHandle open_embree();
 
 }  // namespace leafhull::render

@@ -37,7 +37,7 @@ class MemoryStream : public Imf::OStream {
   std::uint64_t at_ = 0;
 };
 
-/// Channels of one size, each with its own copy of the values.
+/// Channels of equal size, each with its own copy of the values.
 class Channels {
  public:
   Channels(int width, int height) : width_(width), header_(width, height) {

@@ -14,7 +14,7 @@ namespace leafhull::render {
 /// P.Z; `id`, 0 on paper, 1 on foliage, 2 on wood; `key` and `open`, the light that arrives.
 std::vector<std::uint8_t> encode_exr(const Buffers& buffers);
 
-/// The same with a picture of the buffers' size in R G B, linear.
+/// As above, but R G B hold a picture of the buffers' size, linear.
 std::vector<std::uint8_t> encode_exr(const Buffers& buffers, const Picture& picture);
 
 }  // namespace leafhull::render

@@ -7,7 +7,7 @@
 
 namespace leafhull::render {
 
-/// Calls `function(i)` for all i below `count`, on all threads; one takes `grain` at a time.
+/// Calls `function(i)` for all i below `count` on all threads; each takes `grain` at a time.
 template <class Function>
 void for_each(std::size_t count, std::size_t grain, Function&& function) {
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, grain), [&](const auto& some) {

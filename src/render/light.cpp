@@ -10,7 +10,7 @@ namespace leafhull::render {
 namespace {
 
 constexpr double kLitLightness = 0.66;  // in Oklab
-constexpr double kLitChroma = 0.8;      // of the leaves': the sun adds to it
+constexpr double kLitChroma = 0.8;      // share of the leaves' chroma: the sun adds to it
 
 }  // namespace
 

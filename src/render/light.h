@@ -23,8 +23,8 @@ constexpr float kSkyReach = 0.35f;    // how far leaves shade one another from t
 /// The direction to the sun: from the upper left, before the tree.
 Vec3f sun_direction(const Camera& camera);
 
-/// What an abstract shape of leaves of this colour, or of one that nobody tells, is drawn in: their
-/// hue, a little less chroma, and half of the way from their lightness to that of a lit mass.
+/// The colour to draw an abstract shape in, for leaves of a known or unknown colour: their hue, a
+/// little less chroma, and a lightness halfway between theirs and that of a lit mass.
 Vec3f foliage_colour(const std::optional<Vec3f>& leaves);
 
 /// Rolls highlights off below white, colour by colour.
@@ -33,7 +33,7 @@ Vec3f develop(Vec3f radiance);
 /// 8 bits of sRGB. Source: IEC 61966-2-1.
 std::uint8_t srgb(float linear);
 
-/// What 8 bits of sRGB stand for.
+/// The linear value of 8 bits of sRGB.
 float linear(std::uint8_t srgb);
 
 }  // namespace leafhull::render

@@ -14,7 +14,7 @@
 namespace leafhull::render {
 namespace {
 
-constexpr std::size_t kRays = 64;  // that one thread takes at a time
+constexpr std::size_t kRays = 64;  // rays that one thread takes at a time
 
 Spot spot_of(const Hit& hit) {
   return {hit.distance,    hit.surface->look == Look::wood ? Object::wood : Object::foliage,

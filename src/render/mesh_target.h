@@ -22,7 +22,7 @@ class MeshTarget : public Target {
   const Scene& scene_;
 };
 
-/// The sky as single rays find it: a sample is 1 where a ray meets no target within kSkyReach.
+/// The sky sampled by single rays: a sample is 1 if a ray meets no target within kSkyReach.
 class MeshSurroundings : public Surroundings {
  public:
   /// The targets must outlive it.

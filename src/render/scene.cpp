@@ -31,7 +31,7 @@ RTCRay make_ray(Vec3f origin, Vec3f direction, float distance) {
   return ray;
 }
 
-/// At the three corners of a triangle, on the side of `face_normal`.
+/// The normals at the three corners of a triangle, on the side of `face_normal`.
 std::array<Vec3f, 3> corner_normals(const Surface& surface, unsigned triangle, Vec3f face_normal) {
   std::array<Vec3f, 3> normals{face_normal, face_normal, face_normal};
   if (surface.normals.empty()) return normals;
@@ -60,8 +60,8 @@ Scene::Scene(RTCDevice device, std::vector<std::shared_ptr<const Surface>> surfa
   for (unsigned id = 0; id < surfaces_.size(); ++id) {
     rtcAttachGeometryByID(scene_.get(), surfaces_[id]->geometry.get(), id);
   }
-  // With several threads Embree would build another hierarchy each time, and so choose differently
-  // among equally near hits.
+  // With several threads Embree would build a different hierarchy each time, and thus choose
+  // differently among equally near hits.
   const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
   rtcCommitScene(scene_.get());
   if (rtcGetDeviceError(device) != RTC_ERROR_NONE) {

@@ -20,7 +20,7 @@ EdgeSample centre(const Buffers& buffers, std::size_t i) {
           buffers.color[i],  buffers.key[i],   buffers.open[i]};
 }
 
-/// Colours every pixel, at edges by the mean of what its rays see.
+/// Colours every pixel, at edges with the mean of what its rays see.
 template <class Color, class Encode>
 Picture shade(const Buffers& buffers, Color&& color, Encode&& encode) {
   Picture picture{buffers.width, buffers.height, {}};
@@ -44,12 +44,12 @@ Picture shade(const Buffers& buffers, Color&& color, Encode&& encode) {
   return picture;
 }
 
-/// 8 bits of a value that is no colour.
+/// A value that is not a colour as 8 bits.
 std::uint8_t byte(float value) {
   return static_cast<std::uint8_t>(std::lround(255 * std::clamp(value, 0.0f, 1.0f)));
 }
 
-/// The sky's light, weaker and greener in the crown, and the key light's.
+/// The light of the sky, weaker and greener inside the crown, and of the key light.
 Vec3f diffuse(const EdgeSample& at, Vec3f to_light) {
   const Vec3f sky_there =
       mix(kPaperBounce, mix(kHorizon, kZenith, 0.6f), 0.5f + 0.5f * at.normal.y);

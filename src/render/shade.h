@@ -10,7 +10,7 @@ namespace leafhull::render {
 /// Ambient, diffuse and specular light on white paper, as in the left column of Figure 17.
 Picture shade_phong(const Buffers& buffers);
 
-/// The same without highlights: for small pictures that are compared.
+/// As shade_phong without highlights, for small pictures that are compared.
 Picture shade_matte(const Buffers& buffers);
 
 /// 0.5 n + 0.5 in the camera's space: red to the right, green up, blue towards the eye. Paper is

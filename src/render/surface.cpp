@@ -43,7 +43,7 @@ void set_triangles(Surface& surface, RTCDevice device, std::size_t vertex_count,
   surface.triangles = triangles;
 }
 
-/// What a shape is drawn in, flat.
+/// The flat material that a shape is drawn in.
 Material shape_material(const std::optional<Vec3f>& leaves) {
   const auto [r, g, b] = foliage_colour(leaves);
   Material material;
@@ -79,7 +79,7 @@ std::optional<Vec3f> colour_of_shape(const TreeModel& model, const Instance& ins
   if (material < 0) return std::nullopt;
   const auto& [r, g, b, alpha] = model.materials[material].base_color;
   const auto [low, high] = std::minmax({r, g, b});
-  if (high - low < 1e-3f) return std::nullopt;  // what programs give whom nobody coloured
+  if (high - low < 1e-3f) return std::nullopt;  // grey is a program's default
   return Vec3f{r, g, b};
 }
 

@@ -17,7 +17,7 @@ namespace leafhull::render {
 
 enum class Look { wood, leaf, shape };
 
-/// Triangles ready for ray casting; they can stand in several scenes. What they were made of must
+/// Triangles ready for ray casting, in one or more scenes. The model that they were made from must
 /// outlive them.
 struct Surface {
   Look look = Look::shape;
@@ -30,16 +30,16 @@ struct Surface {
   const Image* image = nullptr;  ///< of the base colour
   GeometryHandle geometry;
 
-  /// At a point of a triangle, in Embree's barycentric coordinates.
+  /// The texture coordinates at a point of a triangle, in Embree's barycentric coordinates.
   Vec2f uv(unsigned triangle, Vec2f at) const;
-  /// Linear, there.
+  /// The linear colour at that point.
   Vec3f color(unsigned triangle, Vec2f at) const;
-  /// Whether the texture cuts it away there.
+  /// Whether the texture has a hole there.
   bool is_hole(Vec2f uv) const;
 };
 
 /// An instance of a tree, or of a shape that was read from a file.
-/// @param cut_out the alpha of its image counts though the material is opaque.
+/// @param cut_out the alpha of the image counts even if the material is opaque.
 std::shared_ptr<const Surface> make_surface(RTCDevice device, const TreeModel& model,
                                             const Instance& instance, Look look,
                                             const Placement& placement, bool cut_out = false);
@@ -47,7 +47,7 @@ std::shared_ptr<const Surface> make_surface(RTCDevice device, const TreeModel& m
 std::shared_ptr<const Surface> make_surface(RTCDevice device, const Mesh& mesh,
                                             const Placement& placement);
 
-/// The base colour of a shape that was read from a file; none where it is grey, as nobody gave one.
+/// The base colour of a shape that was read from a file; none if it is grey, a program's default.
 std::optional<Vec3f> colour_of_shape(const TreeModel& model, const Instance& instance);
 
 /// The vertices of an instance in model space.

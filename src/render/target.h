@@ -10,7 +10,7 @@
 
 namespace leafhull::render {
 
-/// In the scene.
+/// A ray in the scene.
 struct Ray {
   Vec3f origin, direction;  ///< direction: unit
 };
@@ -19,7 +19,7 @@ struct Ray {
 struct Spot {
   float distance = HUGE_VALF;  ///< infinite where there is none
   Object object = Object::paper;
-  Vec3f start;        ///< of rays to light: off the surface by what it is not sure of
+  Vec3f start;        ///< where rays to the light start: just off the surface
   Vec3f normal;       ///< unit, smooth, on the ray's side
   Vec3f face_normal;  ///< unit, of the surface itself; rays below it are hidden
   Vec3f color;        ///< linear
@@ -37,12 +37,12 @@ class Target {
 
   /// The nearest surface along each ray.
   virtual void closest(std::span<const Ray> rays, std::span<Spot> spots) const = 0;
-  /// 1 where anything lies within `reach` along a ray, else 0.
+  /// Answers 1 for a ray that meets anything within `reach`, else 0.
   virtual void occluded(std::span<const Ray> rays, float reach,
                         std::span<std::uint8_t> answers) const = 0;
 };
 
-/// How open the places around surfaces are.
+/// Tells how open the places around surfaces are to the sky.
 class Surroundings {
  public:
   Surroundings() = default;
@@ -50,8 +50,9 @@ class Surroundings {
   Surroundings& operator=(const Surroundings&) = delete;
   virtual ~Surroundings() = default;
 
-  /// What arrives of the sky's light at each spot, 0..1, or a sample of it: neighbours are shared.
-  /// `turns` from 0 to kTurns - 1 say which sample; spots without a surface may be passed over.
+  /// The share of the sky's light that arrives at each spot, 0..1, or a sample of it, which callers
+  /// average over neighbours. `turns` (0 to kTurns - 1) select the sample; spots without a surface
+  /// may be skipped.
   virtual void openness(std::span<const Spot> spots, std::span<const std::uint8_t> turns,
                         std::span<float> open) const = 0;
   static constexpr int kTurns = 16;

@@ -52,7 +52,7 @@ Vec3f base_color(const Material& material, const Image* image, Vec2f uv) {
   Vec3f sum;
   float total = 0;
   for_each_texel(*image, material, uv, [&](const std::uint8_t* rgba, float weight) {
-    // Colours count by their alpha: what lies under a hole must not bleed into the leaf.
+    // Colours are weighted by their alpha: the colour of a hole must not bleed into the leaf.
     const float covered = weight * std::max<float>(rgba[3], 0.001f);
     sum = sum + Vec3f{linear(rgba[0]), linear(rgba[1]), linear(rgba[2])} * covered;
     total += covered;

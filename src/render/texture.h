@@ -9,7 +9,7 @@ namespace leafhull::render {
 /// is one, times its factor.
 Vec3f base_color(const Material& material, const Image* image, Vec2f uv);
 
-/// Its alpha there, 0..1.
+/// The alpha of a material at `uv`, 0..1.
 float alpha(const Material& material, const Image* image, Vec2f uv);
 
 }  // namespace leafhull::render

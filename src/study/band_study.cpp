@@ -13,12 +13,12 @@
 namespace leafhull {
 namespace {
 
-/// The search for a share ends at the first of these, and has failed if it ends beyond the second.
+/// The search for a share ends within kClose of it; ending beyond kCloseEnough, it has failed.
 constexpr double kClose = 1e-4, kCloseEnough = 1e-3;
-/// It ends, too, where the value is known so well: there the share jumps.
+/// It also ends when the value is known to this relative precision: the share jumps there.
 constexpr double kSameValue = 1e-4;
 constexpr int kMostProbes = 24;
-/// How far from where a search starts it goes, as a factor either way.
+/// How far a search goes from its start, as a factor up or down.
 constexpr double kReach = 16;
 
 constexpr int kBandWidth = 20, kBandStep = 10;  // percent of the leaf vertices
@@ -29,8 +29,7 @@ struct Probe {
   double value = 0, share = 0;
 };
 
-/// Looks for the value whose share is `wanted`; `share_at` rises with it. Where there is none, the
-/// nearest found.
+/// Finds the value whose share is `wanted`, else the nearest one; `share_at` rises with the value.
 Probe search(double wanted, double start, const std::function<double(double)>& share_at) {
   std::optional<Probe> below, above, best;
   double value = start;
@@ -42,7 +41,7 @@ Probe search(double wanted, double start, const std::function<double(double)>& s
     (here.share < wanted ? below : above) = here;
     if (below && above) {
       if (above->value < below->value * (1 + kSameValue)) break;
-      // By the shares and by halves in turn: near its end a share is far from straight.
+      // Alternate between interpolation and bisection: the share may be far from linear.
       const double part = (wanted - below->share) / (above->share - below->share);
       const double step = i % 2 == 0 ? 0.5 : std::clamp(part, 0.05, 0.95);
       value = below->value * std::pow(above->value / below->value, step);
@@ -54,26 +53,26 @@ Probe search(double wanted, double start, const std::function<double(double)>& s
   return *best;
 }
 
-/// One vertex of a small tree may be more than kCloseEnough.
+/// Whether a probe is close enough. One vertex of a small tree may be more than kCloseEnough.
 bool is_reached(const Probe& probe, double wanted, const LeafSet& leaves) {
   const double one = 1 / static_cast<double>(leaves.vertices.size());
   return std::abs(probe.share - wanted) <= std::max(kCloseEnough, one);
 }
 
-/// What a method loses in the paper's Table 1.
+/// The share of leaf vertices that a method loses in the paper's Table 1.
 double share_in_paper(Method method) {
   const StudyRow& row = paper_results().table1[static_cast<std::size_t>(method)];
   return share_lost(row, kPaperLeafVertices);
 }
 
-/// What it loses here.
+/// The share of leaf vertices that a row's method loses on this tree.
 double measured_share(StudyRow row, const LeafSet& leaves, Device& device) {
   const Plan plan{{options_of(row, kBandReading)}, {{&row}}};
   measure(plan, leaves, device, [](const Report&) {});
   return share_lost(row, leaves.vertices.size());
 }
 
-/// As `--leaf-scale` scales them, once more.
+/// Scales leaves as `--leaf-scale` does, in addition to it.
 LeafSet scaled(LeafSet leaves, double scale) {
   for (LeafVertex& vertex : leaves.vertices) {
     vertex.radius_major *= static_cast<float>(scale);
@@ -89,8 +88,8 @@ std::string failure(Method method, const char* parameter, const Probe& nearest, 
          fixed(100 * share_in_paper(method), 2) + "%, " + parameter + " being " + shortest(value);
 }
 
-/// T with which L&D loses what it does in the paper; the search starts where N, summed at the leaf
-/// vertices, says so.
+/// Finds the T at which L&D loses the same share as in the paper. The search starts at the T that
+/// N, summed at the leaf vertices, suggests.
 void fit_threshold(BandStudy& band, const LeafSet& leaves, Device& device) {
   const double wanted = share_in_paper(Method::isotropic);
   StudyRow& row = band.isotropic;
@@ -112,7 +111,7 @@ void fit_threshold(BandStudy& band, const LeafSet& leaves, Device& device) {
   }
 }
 
-/// The leaf scale with which UNCTRLED does, at the same T.
+/// Finds the leaf scale at which UNCTRLED loses the same share as in the paper, at the same T.
 void fit_leaf_scale(BandStudy& band, const LeafSet& leaves, Device& device) {
   const double wanted = share_in_paper(Method::uncontrolled);
   StudyRow& row = band.uncontrolled;

@@ -8,8 +8,8 @@
 
 namespace leafhull {
 
-/// Fills in the metrics of a plan's rows; `each` is told of every extraction.
-/// @throws Error as extract does, but for an empty surface.
+/// Fills in the metrics of a plan's rows; calls `each` with the report of every extraction.
+/// @throws Error as extract does, except for an empty surface.
 void measure(const Plan& plan, const LeafSet& leaves, Device& device,
              const std::function<void(const Report&)>& each);
 

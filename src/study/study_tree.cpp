@@ -18,7 +18,7 @@ namespace {
 
 constexpr int kPictureSize = 480;
 
-// What the parts of a study take, about, in entries of the series: for the bar alone.
+// The rough cost of a study's parts in entries of the series, only for the progress bar.
 constexpr int kPictureWork = 12;
 constexpr int kBandWork = 24;
 int timing_work(int resolution) { return 2 * kRuns * (3 + resolution / 16); }
@@ -61,14 +61,14 @@ Mesh surface(const LeafSet& leaves, const StudyRow& row, const Reading& reading,
   }
 }
 
-/// Pictures side by side, and what tells them apart.
+/// A row of pictures, and the parameter in which they differ.
 struct Strip {
   std::vector<LabelledPicture> TreeStudy::*pictures;
   std::vector<StudyRow> rows;
   std::string (*label)(const StudyRow&);
 };
 
-/// Of a figure's five rows the three that the paper shows.
+/// The three of a figure's five rows that the paper shows.
 std::vector<StudyRow> shown(const std::vector<StudyRow>& figure) {
   return {figure.front(), figure[figure.size() / 2], figure.back()};
 }
@@ -88,7 +88,7 @@ std::array<Strip, 4> strips(const ReadingStudy& study) {
             [](Row row) { return "λ_R = " + fixed(row.flatness, 1); }}}};
 }
 
-/// Fills the pictures, all taken from one place, and the meshes.
+/// Fills in the meshes and the pictures, all taken from one viewpoint.
 void draw(TreeStudy& tree, const LeafSet& leaves, Device& device, Steps& steps) {
   steps.start("pictures");
   const ReadingStudy& own = tree.readings.front();

@@ -12,8 +12,8 @@
 namespace leafhull {
 namespace {
 
-// Which stages of `extract` are which steps of Figure 8. Of no step are `threshold`, N at the leaf
-// vertices, which a T that is given does not ask for, and `metrics`.
+// Which stages of `extract` are which steps of Figure 8. Two stages belong to no step: `metrics`,
+// and `threshold`, N at the leaf vertices, which is not needed if T is given.
 using Stages = std::span<const std::string_view>;
 constexpr std::string_view kGridAndSurface[] = {  // steps 1, 6 and 7
     "hash", "field", "polygonise", "snap"};
@@ -51,7 +51,7 @@ StudyTime table2_time(const LeafSet& leaves, const Reading& reading, int resolut
   StudyTime time{.resolution = resolution, .runs = kRuns};
   std::array<double, kRuns> previous, proposed, control;
   try {
-    for (int run = 0; run < kRuns; ++run) {  // in turn, so that a disturbance meets both
+    for (int run = 0; run < kRuns; ++run) {  // in turn, so that a disturbance affects both
       previous[run] = seconds_of(report(Method::isotropic), kGridAndSurface);
       const Report controlled = report(Method::controlled);
       control[run] = seconds_of(controlled, kControl);

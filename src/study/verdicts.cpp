@@ -16,7 +16,8 @@
 namespace leafhull {
 namespace {
 
-/// What "does not dramatically change" allows, and what an "intermediate" shape has to differ by.
+/// The change that "does not dramatically change" allows, and the least difference of an
+/// "intermediate" shape.
 constexpr double kLittle = 0.10;
 
 struct Finding {
@@ -46,14 +47,14 @@ std::string text(const StudyRow& row, const Count& count) {
 
 using Rows = std::span<const StudyRow>;
 
-/// Why `rows` say nothing; empty where they do.
+/// Why `rows` have nothing to compare; empty if they do.
 std::string without_surface(Rows rows) {
   if (rows.size() < 2) return "there is nothing to compare with";
   const bool all = std::all_of(rows.begin(), rows.end(), [](const auto& row) { return row.empty; });
   return all ? "none of them has a surface" : "";
 }
 
-/// Why `rows` cannot be compared by `count`; empty where they can.
+/// Why `rows` cannot be compared by `count`; empty if they can.
 std::string nothing_to_compare(Rows rows, const Count& count) {
   if (std::string why = without_surface(rows); !why.empty()) return why;
   const auto has_none = [&](const StudyRow& row) { return count.of(row) == 0; };
@@ -67,7 +68,7 @@ const StudyRow& row_of(const ReadingStudy& study, Method method) {
   return study.table1[static_cast<std::size_t>(method)];
 }
 
-/// From the method that should have the most to the one that should have the fewest.
+/// Whether `methods` are in order from the one that should have the most to the fewest.
 Finding order(const ReadingStudy& study, const Count& count, std::array<Method, 3> methods) {
   if (std::string why = nothing_to_compare(study.table1, count); !why.empty()) {
     return leave_open(std::move(why));
@@ -91,7 +92,7 @@ Finding order_of_off_site(const ReadingStudy& study) {
   return order(study, kOffSite, {Method::uncontrolled, Method::controlled, Method::isotropic});
 }
 
-/// How far CTRLED lies from L&D (0) towards UNCTRLED (1); empty where these two are equal.
+/// How far CTRLED lies from L&D (0) towards UNCTRLED (1); none if these two are equal.
 std::optional<double> position(const ReadingStudy& study, const Count& count) {
   const auto value = [&](Method method) {
     return static_cast<double>(count.of(row_of(study, method)));
@@ -101,7 +102,7 @@ std::optional<double> position(const ReadingStudy& study, const Count& count) {
   return (value(Method::controlled) - from) / (to - from);
 }
 
-/// CTRLED further than `margin` from both ends of the way.
+/// Whether CTRLED lies further than `margin` from both ends of that range.
 Finding between(const ReadingStudy& study, double margin) {
   if (std::string why = without_surface(study.table1); !why.empty()) {
     return leave_open(std::move(why));
@@ -125,7 +126,7 @@ Finding between(const ReadingStudy& study) { return between(study, 0); }
 
 Finding clear_of_both(const ReadingStudy& study) { return between(study, kLittle); }
 
-/// The bands that pass the same test: "70–90% to 10–30%" where neighbours do.
+/// The bands that pass the same test; neighbours are joined, as in "70–90% to 10–30%".
 std::string passing(const BandStudy& band, const std::vector<BandRow>& rows) {
   std::string names;
   const auto passes = [&](std::size_t i) {
@@ -154,7 +155,7 @@ std::string where_clear(const BandStudy& band) {
 
 // Figures 11, 13, 15
 
-/// The rows of a figure and what varies in it.
+/// The rows of a figure and the parameter that varies in it.
 struct Series {
   const char* parameter;
   double StudyRow::*value;
@@ -185,8 +186,8 @@ std::string listed(const Series& series, const Count& count) {
   return series.range() + ": " + counts;
 }
 
-/// Whether `count` goes one way all along the series; `against(a, b)`: from a to b it went the
-/// other.
+/// Whether `count` changes in one direction along the whole series; `against(a, b)` tells whether
+/// the step from a to b goes the other way.
 template <class Against>
 Finding trend(const Series& series, const Count& count, Against against) {
   if (std::string why = nothing_to_compare(series.rows, count); !why.empty()) {
@@ -218,13 +219,13 @@ Finding radius_and_dilated(const ReadingStudy& study) {
   return rises(raising_radius(study), kDilated);
 }
 
-/// What the off-site vertices gain from the first row to the last.
+/// The gain in off-site vertices from the first row to the last.
 double growth(const Series& series) {
   return static_cast<double>(kOffSite.of(series.rows.back())) -
          static_cast<double>(kOffSite.of(series.rows.front()));
 }
 
-/// The same for each percent by which the parameter grows, of the middle of its range.
+/// That gain per percent of growth of the parameter, relative to the middle of its range.
 double growth_per_percent(const Series& series) {
   const double middle = (series.first() + series.last()) / 2;
   const double percents = 100 * (series.last() - series.first()) / middle;

@@ -5,7 +5,7 @@
 
 namespace leafhull {
 
-/// Claim 2b of a CTRLED between the ends of a band study.
+/// The outcome of claim 2b for a CTRLED between the ends of a band study.
 Outcome intermediate(const BandStudy& band, const StudyRow& controlled);
 
 }  // namespace leafhull

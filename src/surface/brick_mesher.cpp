@@ -27,7 +27,7 @@ constexpr unsigned kEdge = kBrickEdge;
 /// A bit per sample or cell of a brick: a word per x, bit 8 y + z.
 using Bits = std::array<std::uint64_t, kEdge>;
 
-/// Values of a brick's samples or cells and of the first ones of its upper neighbours.
+/// Values of a brick's samples or cells, and of the adjacent layer of its upper neighbours.
 template <class Value>
 class Cube {
  public:
@@ -45,7 +45,7 @@ class Cube {
 };
 
 struct Cell {
-  std::uint16_t first_vertex;  ///< among its brick's
+  std::uint16_t first_vertex;  ///< among its brick's vertices
   std::uint16_t shape;
 };
 
@@ -88,7 +88,7 @@ std::uint64_t next_z(std::uint64_t here, std::uint64_t above) {
 
 /// Where an edge of a cell is crossed.
 struct Crossing {
-  unsigned low, high;  ///< its ends in a cube of samples, from the cell's lowest corner
+  unsigned low, high;  ///< indices of its ends in a Cube, from the cell's lowest corner
   Vec3f start, direction;
 };
 
@@ -108,8 +108,8 @@ constexpr auto kCrossings = [] {
   return crossings;
 }();
 
-/// Of a part, fractions of a cell are multiples of 2^-14, so that sums with the number of a cell
-/// are exact and a point does not depend on the anchor.
+/// Rounds a fraction of a cell to a multiple of 2^-14. In a part, adding it to a cell's number is
+/// then exact, and a point does not depend on the anchor.
 float rounded(float fraction) {
   constexpr float kFractions = 1 << 14;
   return std::min(std::round(fraction * kFractions), kFractions - 1) / kFractions;
@@ -121,8 +121,8 @@ float within_cell(float low, float fraction) {
   return p < low + 1 ? p : std::nextafter(low + 1, low);
 }
 
-/// What of a brick belongs to the part that is asked for: its faces, perhaps some of its points, or
-/// nothing: it only helps to tell the cells beside it.
+/// What a brick adds to the requested part: `own` its faces, `upper` perhaps some points, `beside`
+/// nothing, as it only determines the cells next to it.
 enum class Role { own, upper, beside };
 
 Role role_of(const GridCoord& brick, const SampleBox& own) {
@@ -136,7 +136,7 @@ Role role_of(const GridCoord& brick, const SampleBox& own) {
 
 class BrickMesher {
  public:
-  /// `own` is whole without bounds.
+  /// Meshes everything if `own` is null.
   BrickMesher(const Field& field, const SampleBox* own);
   OwnedPolygons mesh();
 
@@ -151,12 +151,12 @@ class BrickMesher {
   const openvdb::FloatGrid& negated_;
   const float iso_;
   std::vector<const Brick*> bricks_;  ///< in ascending order of their origins
-  // Two more than bricks: what stands for those that are proven outside and inside.
+  // The last two entries stand for blocks that are proven outside and inside.
   std::vector<const float*> values_;
   std::vector<Bits> inside_;
   std::array<float, kBrickSamples> proven_outside_, proven_inside_;
   std::vector<BrickCells> cells_;
-  const bool part_;  ///< or the whole
+  const bool part_;  ///< false: the whole surface
   std::vector<Role> roles_;
 };
 
@@ -189,7 +189,7 @@ BrickMesher::BrickMesher(const Field& field, const SampleBox* own)
   });
 }
 
-/// Walks through the bricks once for each direction, as both they and their neighbours ascend.
+/// Passes over the bricks once per direction, since both bricks and neighbours are in order.
 void BrickMesher::find_neighbours(Index first, Index end) {
   const auto bricks = static_cast<Index>(bricks_.size());
   const GridAccessor negated = negated_.getConstAccessor();
@@ -369,7 +369,7 @@ OwnedPolygons BrickMesher::mesh() {
   return part;
 }
 
-/// Points in one cell follow each other.
+/// Numbers the points within each cell. Points of one cell are consecutive.
 std::vector<std::uint8_t> patches_of(std::span<const Vec3f> points) {
   std::vector<std::uint8_t> patches(points.size(), 0);
   for (std::size_t v = 1; v < points.size(); ++v) {
@@ -379,7 +379,7 @@ std::vector<std::uint8_t> patches_of(std::span<const Vec3f> points) {
   return patches;
 }
 
-/// Leaves out the points of others that no face has.
+/// Removes points of other parts that no face uses.
 void drop_unused(OwnedPolygons& part) {
   Polygons& polygons = part.polygons;
   const auto points = static_cast<Index>(polygons.points.size());

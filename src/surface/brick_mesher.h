@@ -20,14 +20,13 @@ Polygons mesh_bricks(const Field& field);
 struct OwnedPolygons {
   Polygons polygons;
   std::uint32_t own = 0;              ///< points, which come first
-  std::vector<std::uint8_t> patches;  ///< of each point, which of those in its cell it is
+  std::vector<std::uint8_t> patches;  ///< each point's number among those of its cell
 };
 
-/// The part of mesh_bricks(field) that the cells of `own`, whole bricks, hold: the points in them,
-/// the faces whose lowest cell is among them, and after the own points those of upper neighbours
-/// that these faces have, ascending by cell. Points are multiples of 2^-14 voxels. The field must
-/// be known one brick beyond `own`. A point and a face are the same from whatever part and anchor
-/// they are seen.
+/// The part of mesh_bricks(field) in the cells of `own`, which is made of whole bricks. It has the
+/// points in these cells, then the points of upper neighbours that its faces use, ascending by
+/// cell; and the faces whose lowest cell is in `own`. Points are multiples of 2^-14 voxels. The
+/// field must be known one brick beyond `own`. Points and faces do not depend on part or anchor.
 OwnedPolygons mesh_bricks(const Field& field, const SampleBox& own);
 
 }  // namespace leafhull

@@ -12,8 +12,8 @@ namespace leafhull::cell {
 /// The bit of an axis (0 to 2 for x to z) in the number of a corner.
 constexpr unsigned bit(unsigned axis) { return 4u >> axis % 3; }
 
-/// Edge 4 * axis + k runs along `axis`; bits 0 and 1 of k tell whether it lies at the high side of
-/// the next axis and of the one after, in cyclic order.
+/// Edge 4 * axis + k runs along `axis`; bits 0 and 1 of k tell whether it lies on the high side of
+/// the next axis and of the one after it, in cyclic order.
 struct Edge {
   unsigned axis, low;  ///< the corner at its low end
 };
@@ -109,7 +109,7 @@ inline constexpr auto kFaceMetTwice = [] {
   return faces;
 }();
 
-/// Added to the corners inside: the number of the shape that parts them on kFaceMetTwice.
+/// Add this to the corners inside to get the shape that parts them on kFaceMetTwice.
 inline constexpr unsigned kParted = 256;
 
 /// Two dual vertices on either side of a face with four crossings would have two mesh edges between

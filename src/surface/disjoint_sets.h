@@ -12,8 +12,8 @@
 
 namespace leafhull {
 
-/// Numbers from 0 in sets, each known by its lowest number whatever the order in which threads
-/// unite: of two trees that meet, the root of the higher one comes under the other's.
+/// Disjoint sets of numbers from 0. Each is known by its lowest number, in whatever order threads
+/// unite sets: when two trees meet, the higher root is put under the lower one.
 class DisjointSets {
  public:
   using Index = std::uint32_t;
@@ -29,7 +29,7 @@ class DisjointSets {
     }
   }
 
-  /// The lowest number of each one's set, once all are united.
+  /// The lowest number in the set of each number, after all sets are united.
   std::vector<Index> lowest() && {
     tbb::parallel_for(Index{0}, static_cast<Index>(parent_.size()),
                       [&](Index i) { parent(i).store(find(i), std::memory_order_relaxed); });

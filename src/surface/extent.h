@@ -7,8 +7,8 @@
 
 namespace leafhull {
 
-/// Of each brick the corners of the box of its samples inside, model units: they hold the surface
-/// to a voxel.
+/// For each brick, the corners of the box around its samples inside, model units. Together they
+/// bound the surface to within a voxel.
 std::vector<Vec3d> extent_of(const Field& field);
 
 }  // namespace leafhull

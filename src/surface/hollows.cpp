@@ -22,7 +22,7 @@
 namespace leafhull {
 namespace {
 
-/// Of a node: a piece of the space below T. Node 0 is what reaches to infinity, then come the
+/// The number of a node, a piece of the space below T. Node 0 reaches to infinity; then come the
 /// pieces in evaluated bricks, then stretches of blocks that are neither evaluated nor inside.
 using Node = DisjointSets::Index;
 
@@ -42,7 +42,7 @@ SampleBits below(const Brick& negated, float iso) {
   return bits;
 }
 
-/// Grows samples of a layer to all that they are connected to.
+/// Grows samples of a layer to all open samples that they are connected to.
 std::uint64_t spread(std::uint64_t from, std::uint64_t open) {
   for (;;) {
     const std::uint64_t along_y = from << 8 | from >> 8;
@@ -53,7 +53,7 @@ std::uint64_t spread(std::uint64_t from, std::uint64_t open) {
   }
 }
 
-/// Takes a piece, all samples that are connected to the first, from `open`.
+/// Takes one piece from `open`: the first sample and all those connected to it.
 SampleBits take_piece(SampleBits& open) {
   const auto first = std::find_if(open.begin(), open.end(), [](auto layer) { return layer != 0; });
   SampleBits piece{};
@@ -74,7 +74,7 @@ SampleBits take_piece(SampleBits& open) {
 
 /// The pieces of the space below T in each evaluated brick.
 struct Pieces {
-  std::vector<Node> first;  ///< of each brick, and behind the last
+  std::vector<Node> first;  ///< of each brick, then one past the last piece
   std::vector<SampleBits> samples;
 };
 
@@ -105,8 +105,8 @@ Pieces pieces_of(const Field& field) {
   return pieces;
 }
 
-/// Blocks of brick size along z, [low, high), counted in blocks: a brick, what is inside, or what
-/// is below T.
+/// Blocks of brick size along z, [low, high), counted in blocks: one evaluated brick, blocks
+/// inside, or blocks below T.
 struct Stretch {
   std::int32_t low, high;
   Node first, nodes;
@@ -116,14 +116,14 @@ constexpr std::int32_t kFarBelow = std::numeric_limits<std::int32_t>::min();
 constexpr std::int32_t kFarAbove = std::numeric_limits<std::int32_t>::max();
 constexpr Stretch kWorld[] = {{kFarBelow, kFarAbove, 0, 1}};
 
-/// All blocks with one x and y, also counted in blocks, as stretches without a gap.
+/// All blocks at one x and y, also counted in blocks, as stretches without gaps.
 struct Column {
   std::int32_t x, y;
   std::size_t first, end;
 };
 
-/// Space in columns: those that hold no brick and no block inside are left out, being of the world.
-/// So what is far apart takes no more room than what is near.
+/// Space in columns. Those that hold neither a brick nor a block inside belong to the world and are
+/// left out, so that parts far apart take no more memory than parts close together.
 struct Space {
   std::vector<Column> columns;  ///< ascending
   std::vector<Stretch> stretches;
@@ -132,7 +132,7 @@ struct Space {
   std::span<const Stretch> of(const Column& column) const {
     return std::span(stretches).subspan(column.first, column.end - column.first);
   }
-  /// The world where there is none.
+  /// The column at x and y; null if it belongs to the world.
   const Column* find(std::int32_t x, std::int32_t y) const {
     const auto found =
         std::lower_bound(columns.begin(), columns.end(), std::pair(x, y),
@@ -204,7 +204,7 @@ bool touch(const SampleBits& low, const SampleBits& high, int axis) {
   return both != 0;
 }
 
-/// Unites what is connected across the faces of bricks.
+/// Unites nodes that are connected across the faces of bricks.
 class Connections {
  public:
   Connections(const Space& space, const Pieces& pieces)
@@ -227,7 +227,7 @@ class Connections {
     }
   }
 
-  /// Stretches side by side.
+  /// Connects two adjacent columns of stretches.
   void connect(std::span<const Stretch> low, std::span<const Stretch> high, int axis) {
     for (auto a = low.begin(), b = high.begin(); a != low.end() && b != high.end();) {
       connect(*a, *b, axis);

@@ -5,10 +5,10 @@
 
 namespace leafhull {
 
-/// The field with its hollows inside: what is below T and cannot be reached from outside along
-/// lattice edges, islands of surface within counted as what they are, inside. Samples that touch
-/// across a diagonal are not connected, as the meshers have it. A field without hollows comes back
-/// as it is, its grid with it. SPEC: 5.
+/// The field with its hollows raised to inside. A hollow is space below T that cannot be reached
+/// from outside along lattice edges; islands of surface within it are inside anyway. Samples that
+/// touch only across a diagonal are not connected, as in the meshers. A field without hollows comes
+/// back unchanged and shares its grid. SPEC: 5.
 Field fill_hollows(Field field);
 
 }  // namespace leafhull

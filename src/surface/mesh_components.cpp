@@ -12,7 +12,7 @@
 namespace leafhull {
 namespace {
 
-/// The lowest vertex that each is connected to.
+/// For each vertex the lowest one that it is connected to.
 using Roots = std::vector<std::uint32_t>;
 
 Roots roots_of(const Polygons& polygons) {
@@ -26,9 +26,8 @@ Roots roots_of(const Polygons& polygons) {
   return std::move(sets).lowest();
 }
 
-/// The volume that each component encloses, times twelve, at its root vertex; of a hollow negative.
-/// A quad counts as the mean of its two foldings, so that it does not matter at which corner it
-/// begins.
+/// Twelve times the volume that each component encloses, stored at its root vertex; negative for a
+/// hollow. A quad counts as the mean of its two foldings, so its first corner does not matter.
 std::vector<double> volumes(const Polygons& polygons, const Roots& root) {
   std::vector<double> part(polygons.faces.size());
   tbb::parallel_for(std::size_t{0}, part.size(), [&](std::size_t f) {

@@ -10,7 +10,7 @@ namespace leafhull {
 
 struct ComponentCount {
   std::uint64_t kept = 0, dropped = 0;
-  /// That hold vertices of those dropped which are no hollows; ascending, none twice.
+  /// The cells that hold vertices of dropped components other than hollows; ascending, none twice.
   std::vector<Coord> dropped_cells;
 };
 

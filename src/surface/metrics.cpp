@@ -95,8 +95,8 @@ VoxelCount count_brick(const MaskAccessor& inside, const openvdb::Coord& origin)
   return count;
 }
 
-/// A cell with a corner in an evaluated brick has its lowest corner there or in a neighbour, which,
-/// if it was not evaluated, is proven to be on one side together with the cell.
+/// A cell with a corner in an evaluated brick has its lowest corner there or in a neighbour. If the
+/// neighbour was not evaluated, it and the cell are proven to lie on one side.
 VoxelCount count_voxels(const Field& field) {
   const MaskTree inside = inside_samples(field);
   VoxelCount count = tbb::parallel_reduce(
@@ -140,10 +140,10 @@ double interpolate(const Corners& corners, Vec3d at) {
   return sum;
 }
 
-/// Where leaf vertices are.
+/// Where the leaf vertices lie.
 struct Placed {
-  MaskTree::Ptr cells = std::make_shared<MaskTree>();  ///< of the shape that hold one
-  std::uint64_t off_site = 0;                          ///< vertices
+  MaskTree::Ptr cells = std::make_shared<MaskTree>();  ///< cells of the shape that hold a vertex
+  std::uint64_t off_site = 0;                          ///< vertices outside the shape
 };
 
 void place(std::span<const Vec3d> leaf_vertices, const Field& field, Placed& placed) {
@@ -190,7 +190,7 @@ bool is_in_shape(Vec3d place, const Field& field, const openvdb::FloatGrid::Cons
     return false;
   }
   if (dropped.empty()) return true;
-  // The surface that encloses it is the first one along x.
+  // The first surface along +x is the one that encloses the place.
   while (count_inside(corners) == 8) {
     ++cell.x;
     corners = corners_of(negated, cell);

@@ -8,9 +8,9 @@
 
 namespace leafhull {
 
-/// Inside, on and dilated voxels, and those of `places` on the leaves that the sampled field leaves
-/// out (`off_site_sampled`). A voxel is not dilated that holds one of them, or one of `others`.
-/// Both are in voxels from the field's anchor. SPEC: 6; Source: section 4, Figure 9.
+/// Counts inside, on and dilated voxels, and the `places` on the leaves that lie outside the
+/// sampled field (`off_site_sampled`). A voxel that holds one of `places` or `others` is not
+/// dilated. Both are in voxels from the field's anchor. SPEC: 6; Source: section 4, Figure 9.
 Metrics measure(const Field& field, std::span<const Vec3d> places,
                 std::span<const Vec3d> others = {});
 

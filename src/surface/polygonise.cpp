@@ -10,7 +10,8 @@
 #include "density/field_grid.h"
 
 #ifdef LEAFHULL_OPENVDB_HAS_MESHER
-// The library holds this one compiled (cmake/dependencies.cmake looks); here it would take half a minute.
+// The library has this one compiled (cmake/dependencies.cmake checks); here it would take half a
+// minute.
 extern template void openvdb::tools::VolumeToMesh::operator()(const openvdb::FloatGrid&);
 #endif
 
@@ -59,8 +60,8 @@ Polygons by_volume_to_mesh(const Field& field, double adaptivity) {
 
 Polygons polygonise(const Field& field, double adaptivity) {
   Polygons polygons = by_volume_to_mesh(field, adaptivity);
-  // The mesher leaves behind a heap of small free blocks, as large as the field: they would count
-  // in the peak of what comes next, and giving them back takes time only where there are many.
+  // The mesher leaves small free blocks on the heap, as large as the field together. They would add
+  // to the next stage's peak memory; giving them back takes time only if there are many.
   constexpr std::size_t kManySamples = std::size_t{1} << 22;
   if (field.sample_count() > kManySamples) malloc_trim(0);
   return polygons;

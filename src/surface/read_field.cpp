@@ -31,7 +31,7 @@ std::string number(double value) {
   return text;
 }
 
-/// The grid of densities among those of the file.
+/// The name of the file's density grid.
 std::string choose_grid(openvdb::io::File& file) {
   std::vector<std::string> names;
   for (auto name = file.beginName(); name != file.endName(); ++name) {
@@ -115,7 +115,7 @@ Coord relative(const openvdb::Coord& c, const openvdb::Coord& anchor) {
   return {c.x() - anchor.x(), c.y() - anchor.y(), c.z() - anchor.z()};
 }
 
-/// Evaluated bricks, some at a time.
+/// Adds evaluated bricks, some at a time.
 void add_bricks(const FloatGrid& grid, const openvdb::Coord& anchor, const fs::path& file,
                 Field& field) {
   constexpr std::size_t kBatch = 1024;
@@ -137,7 +137,7 @@ void add_bricks(const FloatGrid& grid, const openvdb::Coord& anchor, const fs::p
   flush();
 }
 
-/// Tiles that hold a density.
+/// Adds tiles that hold a density.
 void add_tiles(const FloatGrid& grid, const openvdb::Coord& anchor, Field& field) {
   auto tile = grid.tree().cbeginValueAll();
   tile.setMaxDepth(decltype(tile)::LEAF_DEPTH - 1);

@@ -14,9 +14,9 @@ struct FieldFile {
   Vec3d origin;
 };
 
-/// Reads what density_grid() makes, and grids of densities from elsewhere: `density`, or the only
-/// grid of floats. T is `threshold`, else the grid's own.
-/// @throws Error input: the file, its grid or the grid's transform; usage: no T, or another than
+/// Reads grids made by density_grid(), and density grids from elsewhere: the one named `density`,
+/// or the only grid of floats. T is `threshold`, else the grid's own.
+/// @throws Error input: the file, its grid or the grid's transform; usage: no T, or not the T that
 /// the grid was sampled for; empty: nothing reaches T.
 FieldFile read_field(const std::filesystem::path& file, std::optional<double> threshold);
 

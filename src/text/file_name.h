@@ -6,10 +6,10 @@
 
 namespace leafhull {
 
-/// ".png" of FILE.PNG.
+/// The extension in lower case: ".png" for FILE.PNG.
 std::string lower_extension(const std::filesystem::path& file);
 
-/// Whether a word, where it is no name of something else, was meant to be a file's.
+/// Whether a word that names nothing else was probably meant as a file name.
 bool looks_like_file(const std::string& word);
 
 }  // namespace leafhull

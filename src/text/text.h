@@ -8,7 +8,7 @@
 
 namespace leafhull {
 
-/// A part of a label, on the line or below it.
+/// A part of a label, on the baseline or below it as a subscript.
 struct TextRun {
   std::u32string text;
   bool subscript = false;
@@ -19,7 +19,7 @@ std::u32string decode_utf8(std::string_view text);
 
 void append_utf8(char32_t character, std::string& text);
 
-/// Text out of a file, fit for a message of one line: control characters replaced, long text cut.
+/// Text from a file made fit for a one-line message: control characters replaced, long text cut.
 std::string printable(std::string_view text, std::size_t longest = 80);
 
 /// The parts of a label. An underscore after a word of one letter makes the rest of the word its

@@ -6,8 +6,8 @@
 namespace leafhull::watercolour {
 namespace {
 
-constexpr float kSteep = 0.6f;  // of the camera's way down: the ground is no strip any more
-constexpr int kPart = 50;       // of the picture's height, to which the foot is looked at
+constexpr float kSteep = 0.6f;  // if the camera looks down more, the ground is no longer a strip
+constexpr int kPart = 50;       // the foot is searched in 1 / kPart of the picture's height
 
 }  // namespace
 

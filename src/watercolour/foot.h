@@ -7,12 +7,12 @@
 
 namespace leafhull::watercolour {
 
-/// Where a tree stands in a picture, and half the width of what is seen of it; pixels.
+/// Where a tree stands in a picture, and half the visible width of its foot; pixels.
 struct Foot {
   float x, y, reach;
 };
 
-/// None where no wood reaches the ground within the picture, or where one looks down on it.
+/// None if no wood reaches the ground within the picture, or if the camera looks down on it.
 std::optional<Foot> find_foot(const render::Buffers& buffers);
 
 }  // namespace leafhull::watercolour

@@ -18,14 +18,14 @@
 namespace leafhull::watercolour {
 namespace {
 
-constexpr std::size_t kMostPlanes = 40;  // at a time
+constexpr std::size_t kMostPlanes = 40;  // in use at the same time
 
 constexpr float kWrap = 0.25f;            // how far light reaches around a mass
 constexpr float kNeighbourhood = 0.006f;  // of the picture's height
 constexpr float kWoodMelts = 0.6f;        // behind foliage: its own lines are lost last
 constexpr float kAntialias = 0.7f;        // pixels
-constexpr float kBroad = 1.6f;        // of the brush that breaks edges, in strokes of single leaves
-constexpr float kSoftness = 0.0008f;  // of what it leaves, of the picture's height
+constexpr float kBroad = 1.6f;        // size of the brush that breaks edges, in strokes of leaves
+constexpr float kSoftness = 0.0008f;  // of the broken edges, as a share of the picture's height
 constexpr float kLeafScale = 45;      // leaf-sized cells that break edges, in the scene
 
 Vec3f absorbance(Vec3f color) {
@@ -84,8 +84,8 @@ class Painting {
   }
 
  private:
-  /// Finds the noise and the darkness of places, going on softly beyond the silhouette, and returns
-  /// how visible they are beside what lies before them.
+  /// Computes noise and darkness, extended softly beyond the silhouette, and returns how visible
+  /// each place is behind the masses in front of it.
   Plane look_around(const SeenPlanes& seen) {
     const float sigma = kNeighbourhood * unit_;
     const Plane near = passes_.blur(seen.seen, sigma);
@@ -118,7 +118,7 @@ class Painting {
     return passes_.darkness(blurred(seen.light, wash), blurred(seen.seen, wash));
   }
 
-  /// Mixes the pigments for leaves of these colours, and finds where each is.
+  /// Mixes the pigments for leaves of these colours, and finds where each colour is.
   void mix_tones(std::span<const Vec3f> colours) {
     if (colours.size() < 2) {
       tones_.push_back({colours.empty() ? style_ : tinted(style_, colours.front()), {}});
@@ -130,7 +130,7 @@ class Painting {
     const auto lack_of = [&](const std::vector<float>& some) {
       return passes_.darkness(passes_.blur(passes_.upload(some), sigma), seen);
     };
-    // The first has what the others have not: all of it where no leaf is near.
+    // The first tone takes what the others leave, which is everything where no leaf is near.
     tones_.push_back({tinted(style_, colours[0]), lack_of(weights.others)});
     for (std::size_t i = 1; i < colours.size(); ++i) {
       tones_.push_back({tinted(style_, colours[i]), unlike(lack_of(weights.other[i - 1]))});
@@ -144,7 +144,7 @@ class Painting {
     return alpha;
   }
 
-  /// The same with each tone's own pigments.
+  /// As lay(), with each tone's own pigments.
   Plane lay_foliage(Wash Style::*of, const Plane& rho, const Plane& within) {
     const Wash& wash = style_.*of;
     const auto [alpha, density] =
@@ -183,7 +183,7 @@ class Painting {
                   style_.warm_cool, absorbance_);
   }
 
-  /// Colours bleed where the crown is wet.
+  /// Lets colours bleed where the crown is wet.
   void run_together(const Plane& crown) {
     if (style_.bleeding <= 0 || style_.bleeding_width <= 0) return;
     const float sigma = style_.bleeding_width * unit_;

@@ -11,20 +11,20 @@
 
 namespace leafhull::watercolour {
 
-/// Paints watercolours. Its kernels are built, and its paper and planes kept, between pictures of
-/// one size.
+/// Paints watercolours. Kernels stay built, and paper and planes are kept between pictures of one
+/// size.
 class Painter {
  public:
   explicit Painter(Device& device);
   ~Painter();
   Painter(Painter&&) noexcept;
 
-  /// What `buffers` see, in watercolour. Lengths of the style scale with the picture's height.
+  /// Paints what `buffers` show. Lengths in the style scale with the picture's height.
   /// @throws Error usage: no pixels, or more than the device's memory holds; device: a kernel that
   /// does not build, a failing driver.
   Picture paint(const render::Buffers& buffers, const Leaves& leaves, const Style& style);
 
-  /// Bytes of the device's memory that it holds, and that a picture needs at most.
+  /// Bytes of device memory: memory() is what it holds, memory_of() the most a picture needs.
   std::size_t memory() const;
   static std::size_t memory_of(int width, int height);
 

@@ -24,10 +24,12 @@ constexpr float kBlurReach = 2.6f;  // standard deviations
 
 using Pool = std::vector<cl::Buffer>;
 
-/// An odd multiple of kPadding: rows a power of two apart would share few lines of the cache.
+/// `n` rounded up to an odd multiple of kPadding: rows a power of two apart would compete for the
+/// same few cache lines.
 int padded(int n) { return ((n + kPadding - 1) / kPadding | 1) * kPadding; }
 
-/// Of a Gaussian: of the middle, then of the neighbours; both sides together sum to 1.
+/// The weights of a Gaussian: that of the middle, then those of the neighbours on one side. Over
+/// both sides they sum to 1.
 std::vector<float> gaussian(float sigma) {
   const int reach = std::max(1, static_cast<int>(std::ceil(kBlurReach * sigma)));
   std::vector<double> weights;
@@ -99,13 +101,13 @@ struct Passes::Impl {
     engine.queue.enqueueNDRangeKernel(kernel, cl::NullRange, global, local);
   }
 
-  /// A pass that looks at one pixel alone.
+  /// Runs a pass in which each pixel depends on no other.
   template <class... Arguments>
   void over_plane(const char* name, const Arguments&... arguments) {
     launch(name, cl::NDRange(values() / lanes), cl::NDRange(kWorkItems), arguments...);
   }
 
-  /// The blur of the columns of `in`, turned.
+  /// Blurs the columns of `in` and transposes the result.
   void blur_turning(const Plane& in, int in_pitch, int in_rows, int rows_within,
                     const cl::Buffer& weights, int reach, const Plane& out) {
     const cl::NDRange group = lanes > 1 ? cl::NDRange(1, 1) : cl::NDRange(kPadding, kPadding);
@@ -188,7 +190,7 @@ SeenPlanes Passes::see(const render::Buffers& buffers, float sky, float wrap) {
   d.launch("see", cl::NDRange(d.pitch, d.rows), cl::NDRange(kPadding, 1), d.width, d.height,
            d.pitch, object, normal, position, depth, key, open, l.x, l.y, l.z, sky, wrap, out.seen,
            out.light, out.far, out.x, out.y, out.z);
-  d.engine.queue.finish();  // the host's buffers are the caller's again
+  d.engine.queue.finish();  // the caller may now change its buffers
   return out;
 }
 

@@ -14,18 +14,18 @@
 
 namespace leafhull::watercolour {
 
-/// A float for each pixel, on the device. Copies share it; its memory is used again after the last.
+/// A float for each pixel, on the device. Copies share it; its memory is reused after the last one.
 struct PlaneMemory;
 using Plane = std::shared_ptr<PlaneMemory>;
 
 struct PaperPlanes {
   Plane height;   ///< 0..1
-  Plane speckle;  ///< -1..1, and so is
+  Plane speckle;  ///< -1..1, like `sway`
   Plane sway;
   Plane relief;  ///< about 1
 };
 
-/// Sums over a pixel: zero where it sees nothing.
+/// Values summed over a pixel: zero where it sees nothing.
 struct SeenPlanes {
   Plane seen, light, far, x, y, z;
 };
@@ -45,15 +45,15 @@ struct Pigments {
   Vec3f cool, warm;  ///< absorbances, -ln C
 };
 
-/// Passes over pictures of one size. Every call returns at once but for those that return values.
-/// Calls throw cl::Error.
+/// Passes over pictures of one size. Calls return at once unless they return values to the host.
+/// They throw cl::Error.
 class Passes {
  public:
   /// @throws Error device: a kernel that does not build.
   Passes(Device& device, int width, int height);
   ~Passes();
 
-  /// Bytes of the planes that it holds, and of one.
+  /// Bytes of all planes that it holds, and of one plane.
   std::size_t memory() const;
   static std::size_t plane_bytes(int width, int height);
 
@@ -61,15 +61,15 @@ class Passes {
   Plane upload(std::span<const float> values);
   std::vector<float> download(const Plane& plane);
 
-  /// `cells` of its grain in `period` pixels, after which it repeats.
+  /// Paper that has `cells` cells of grain in `period` pixels, after which it repeats.
   PaperPlanes paper(float period, int cells, std::uint32_t seed);
   SeenPlanes see(const render::Buffers& buffers, float sky, float wrap);
-  /// A patch around `foot`, 1 in its middle.
+  /// A patch of ground around `foot`, 1 in its middle.
   Plane ground(float size, Vec2f foot, Vec2f reach, std::uint32_t seed);
   FlowPlanes flow(const Plane& near, std::span<const Plane, 3> places, float eddies, float leaves,
                   std::uint32_t seed);
 
-  /// Gaussian, `sigma` in pixels.
+  /// A Gaussian blur, `sigma` in pixels.
   Plane blur(const Plane& in, float sigma);
   Plane darkness(const Plane& light, const Plane& seen);
   Plane extend(const Plane& seen, const Plane& value, const Plane& seen_near,

@@ -20,19 +20,19 @@ float smooth(float low, float high, float x) {
 
 float unit(std::uint32_t bits) { return static_cast<float>(bits >> 8) * 0x1p-24f; }
 
-/// One of a leaf's chances, 0..1.
+/// Random number `which` of a leaf, 0..1.
 float chance(std::uint32_t leaf, std::uint32_t which) {
   return unit(render::hash(3 * leaf + which));
 }
 
-/// A leaf's outline: two arcs that meet in its tips.
+/// A leaf's outline: two arcs that meet at its tips.
 struct Dab {
   Vec2f centre, along;  ///< along: unit
   float length, width;  ///< half of each
   float depth;
   std::uint32_t leaf;
 
-  /// How much of the pixel around (x, y) it covers, about.
+  /// Roughly how much of the pixel around (x, y) it covers.
   float coverage(float x, float y) const {
     const float dx = x - centre.x, dy = y - centre.y;
     const float u = (dx * along.x + dy * along.y) / length;
@@ -43,9 +43,9 @@ struct Dab {
 
 float norm(Vec2f v) { return std::hypot(v.x, v.y); }
 
-/// Of each mark: how wide its dabs are, for their length (leaves on edge are not hairs), how much
-/// longer than the brush, how many there are, how far apart they point, and how far the leaves of a
-/// spray turn from its card; radians.
+/// The shape of a mark: the width of its dabs over their length (leaves seen edge-on are not
+/// hairs), their length over the brush's, their number, the angle between them, and the angle by
+/// which leaves of a spray turn from its card; radians.
 struct Shape {
   float least_width, most_width, length;
   int count;
@@ -93,8 +93,8 @@ void each_of_mark(const Dab& middle, const Shape& shape, Take&& take) {
   }
 }
 
-/// The dabs of a stroke: those of one mark, or for a card larger than the brush of a spray over the
-/// card.
+/// Visits the dabs of a stroke: those of one mark or, for a card larger than the brush, those of a
+/// spray over the card.
 template <class Take>
 void each_dab(const Stroke& stroke, const Brush& brush, Take&& take) {
   Vec2f major = stroke.half_major, minor = stroke.half_minor;
@@ -128,13 +128,13 @@ void each_dab(const Stroke& stroke, const Brush& brush, Take&& take) {
   }
 }
 
-/// Where a dab's centre lies in the picture, and how much of it comes through what is before it.
+/// The pixel of a dab's centre, and how much of the dab shows through surfaces in front of it.
 struct Place {
   std::size_t pixel;
   float visible;
 };
 
-/// None where nothing does.
+/// The place of a dab; none if it lies outside the picture or is hidden.
 std::optional<Place> place(const Dab& dab, const Room& room, const Brush& brush) {
   const Vec2f c = dab.centre;
   const auto width = static_cast<float>(room.width), height = static_cast<float>(room.height);

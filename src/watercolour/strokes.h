@@ -9,9 +9,9 @@
 
 namespace leafhull::watercolour {
 
-/// What a single leaf is painted with.
+/// The kind of stroke that paints a single leaf.
 enum class Mark {
-  dab,   ///< two arcs that meet in its tips
+  dab,   ///< two arcs that meet at its tips
   tuft,  ///< needles from one point
   blade  ///< a long frond
 };
@@ -25,14 +25,14 @@ struct Stroke {
 
 /// A tree's leaves, for a picture.
 struct Leaves {
-  std::span<const Stroke> strokes{};  ///< in any order that is the same each time; may be none
-  /// The colours that they have, linear, that of most first. Where there are several, the buffers'
-  /// colour says where which is; none: the green that styles are made for.
+  std::span<const Stroke> strokes{};  ///< in any order that stays the same; may be none
+  /// The leaves' colours, linear, the most frequent first. If there are several, the buffers'
+  /// colour says which one applies where; none: the green that styles are made for.
   std::span<const Vec3f> tones{};
   Mark mark = Mark::dab;
 };
 
-/// Where strokes may go.
+/// The picture in which strokes are painted.
 struct Room {
   int width = 0, height = 0;
   std::span<const float> outline;  ///< 0 outside the foliage to 1 inside, soft
@@ -41,21 +41,21 @@ struct Room {
 };
 
 struct Brush {
-  float size = 1;       ///< of a stroke, in leaves
-  float least = 0;      ///< of the half-length, pixels
-  float most = 0;       ///< of the half-length; a larger card is a spray of leaves
+  float size = 1;       ///< the size of a stroke, in leaves
+  float least = 0;      ///< the least half-length, pixels
+  float most = 0;       ///< the largest half-length; a larger card is a spray of leaves
   float tolerance = 0;  ///< how far behind the surface a leaf is still painted
   Mark mark = Mark::dab;
 };
 
-/// Leaves that break the edges of washes: each pixel has what its strongest leaf adds or takes,
-/// -1..1. Which of the two is a hash of the leaf.
+/// How leaves break the edges of washes: for each pixel, what its strongest leaf adds or removes,
+/// -1..1. A hash of the leaf decides between the two.
 std::vector<float> break_edges(std::span<const Stroke> strokes, const Room& room,
                                const Brush& brush);
 
-/// How much of each pixel leaves cover that are painted one by one, 0..1: at the silhouette and in
-/// the light, the part `detail` of them. Which, is a hash of the leaf alone, so that a leaf that
-/// turns with the tree stays or fades.
+/// How much of each pixel is covered by leaves painted one by one, 0..1. At the silhouette and in
+/// the light, the share `detail` of the leaves is painted. A hash of the leaf alone selects them,
+/// so that leaves stay or fade as the tree turns.
 std::vector<float> paint_leaves(std::span<const Stroke> strokes, const Room& room,
                                 const Brush& brush, float detail);
 

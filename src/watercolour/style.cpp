@@ -142,7 +142,7 @@ Json parse_json(std::string_view text, const Source& source) {
   try {
     json = Json::parse(text);
   } catch (const Json::out_of_range& error) {
-    const std::string_view what = error.what();  // which ends with the number in quotes
+    const std::string_view what = error.what();  // ends with the number in quotes
     source.fail("a number is too large: " + std::string(what.substr(what.find('\''))),
                 "Give a number in the range of its key.");
   } catch (const Json::exception& error) {
@@ -186,7 +186,7 @@ void require_all_keys(const Json& json, std::string_view name) {
   }
 }
 
-/// A row of the table; the value of a colour as style files give it.
+/// Writes a row of the table; colours are written as in style files.
 template <class Target>
 std::string table_row(const StyleKey& key, const std::string& name, const Target& target) {
   std::ostringstream row;
@@ -246,8 +246,8 @@ std::span<const StyleKey> style_keys() {
       {"seed", "[0, 1000000]", "another paper and other patches", &Style::seed, 0, kMostSeed},
       {"paper", "a colour", "the paper's colour", &Style::paper},
       {"grain", "[0.001, 0.1]", "the width of the paper's grain", &Style::grain, 0.001f, 0.1f},
-      {"roughness", "[0, 3]", "how much of its grain the paint feels", &Style::roughness, 0, 3},
-      {"relief", "[0, 1]", "how much of its grain is seen in the light", &Style::relief, 0, 1},
+      {"roughness", "[0, 3]", "how much paint feels the paper's grain", &Style::roughness, 0, 3},
+      {"relief", "[0, 1]", "how much the light shows the paper's grain", &Style::relief, 0, 1},
       {"sky", "[0, 1]", "the sky's share of the light that tones are read from", &Style::sky, 0, 1},
       {"dilution", "[0, 1]", "how much the lights are thinned towards the paper", &Style::dilution,
        0, 1},
@@ -255,10 +255,10 @@ std::span<const StyleKey> style_keys() {
        &Style::warm_cool, 0, 2},
       {"turbulence", "[0, 2]", "unevenness of the pigment in the water", &Style::turbulence, 0, 2},
       {"backruns", "[0, 2]", "fronts of pigment where water flowed back", &Style::backruns, 0, 2},
-      {"eddies", "[0.1, 100]", "how many of them lie across the scene", &Style::eddies, 0.1f, 100},
+      {"eddies", "[0.1, 100]", "how many eddies lie across the scene", &Style::eddies, 0.1f, 100},
       {"dispersion", "[0, 2]", "specks of pigment", &Style::dispersion, 0, 2},
       {"bleeding", "[0, 1]", "how much wet patches run into each other", &Style::bleeding, 0, 1},
-      {"bleeding_width", "[0, 0.1]", "how far", &Style::bleeding_width, 0, 0.1f},
+      {"bleeding_width", "[0, 0.1]", "how far they run", &Style::bleeding_width, 0, 0.1f},
       {"edge_width", "[0, 0.05]", "the width of dark rims", &Style::edge_width, 0, 0.05f},
       {"wobble", "[0, 1]", "how an edge sways", &Style::wobble, 0, 1},
       {"melting", "[0.001, 1]", "how far behind another a mass has melted away", &Style::melting,
@@ -268,11 +268,10 @@ std::span<const StyleKey> style_keys() {
       {"melting_softness", "[0, 0.1]", "softens the edges of masses in front",
        &Style::melting_softness, 0, 0.1f},
       {"gaps", "[0, 1]", "paper left free behind a mass in front", &Style::gaps, 0, 1},
-      {"ground_reach", "[0.01, 5]", "of the wash at the foot, in half crowns", &Style::ground_reach,
-       0.01f, 5},
+      {"ground_reach", "[0.01, 5]", "reach of the wash at the foot, in half crowns",
+       &Style::ground_reach, 0.01f, 5},
       {"detail", "[0, 1]", "how many leaves are painted one by one", &Style::detail, 0, 1},
-      {"leaf_size", "[0.1, 10]", "the size of their strokes, in leaves", &Style::leaf_size, 0.1f,
-       10},
+      {"leaf_size", "[0.1, 10]", "the size of a stroke, in leaves", &Style::leaf_size, 0.1f, 10},
       {"leaf_width", "[0.0001, 0.1]", "the least half-length of a stroke", &Style::leaf_width,
        0.0001f, 0.1f},
   };
@@ -281,13 +280,13 @@ std::span<const StyleKey> style_keys() {
 
 std::span<const StyleKey> wash_keys() {
   static const StyleKey keys[] = {
-      {"cool", "a colour", "of a coat on white paper, where it leans to cool", &Wash::cool},
-      {"warm", "a colour", "of a coat on white paper, where it leans to warm", &Wash::warm},
+      {"cool", "a colour", "colour of a coat on white paper where it leans cool", &Wash::cool},
+      {"warm", "a colour", "colour of a coat on white paper where it leans warm", &Wash::warm},
       {"strength", "[0, 5]", "pigment in the water", &Wash::strength, 0, 5},
       {"level", "[0, 1]", "how dark, or how far inside, it begins", &Wash::level, 0, 1},
-      {"size", "[0, 0.1]", "of the shapes it is simplified to", &Wash::size, 0, 0.1f},
-      {"wetness", "[0, 1]", "of its edges: 0 wet on dry, 1 wet on wet", &Wash::wetness, 0, 1},
-      {"lost_edges", "[0, 1]", "how much wetter they are in patches", &Wash::lost_edges, 0, 1},
+      {"size", "[0, 0.1]", "size of the shapes it is simplified to", &Wash::size, 0, 0.1f},
+      {"wetness", "[0, 1]", "its edges: 0 wet on dry, 1 wet on wet", &Wash::wetness, 0, 1},
+      {"lost_edges", "[0, 1]", "how much wetter edges are in patches", &Wash::lost_edges, 0, 1},
       {"edge_darkening", "[0, 10]", "pigment carried to the rim", &Wash::edge_darkening, 0, 10},
       {"granulation", "[0, 5]", "pigment in the valleys of the paper", &Wash::granulation, 0, 5},
       {"raggedness", "[0, 1]", "how leaves break its edge", &Wash::raggedness, 0, 1},

@@ -11,8 +11,7 @@
 namespace leafhull::watercolour {
 namespace {
 
-/// Where sectors of hue begin, degrees; what lies before the first, as bark does, and greys are
-/// wood.
+/// Where sectors of hue begin, degrees. Hues before the first, such as bark, and greys are wood.
 constexpr std::array<double, 6> kSectors{50, 80, 165, 200, 260, 330};
 constexpr double kGrey = 0.2;  // saturation
 constexpr double kChroma = 0.8;
@@ -25,7 +24,7 @@ std::size_t sector_of(Vec3f linear) {
   return static_cast<std::size_t>(std::ranges::upper_bound(kSectors, hsv.hue) - kSectors.begin());
 }
 
-/// The pixel's own number where it shows wood, else that of a neighbour that does, if any.
+/// The index of the pixel if it shows wood, else of a neighbour that does, else of the pixel.
 std::size_t seen_at(const render::Buffers& buffers, int x, int y) {
   const auto at = [&](int i, int j) {
     return static_cast<std::size_t>(j) * static_cast<std::size_t>(buffers.width) +

@@ -6,9 +6,9 @@
 
 namespace leafhull::watercolour {
 
-/// A style for leaves of another colour than the green that styles are made for: the hue of the
-/// foliage's pigments turns by as much as the leaves' does, and their chroma goes with it; how
-/// light they are stays the painter's. Shadows turn half as far.
+/// A style for leaves of another colour than the green that styles are made for. The pigments of
+/// the foliage turn in hue as far as the leaves do, and their chroma changes along; their lightness
+/// stays. Shadows turn half as far.
 /// @param leaves linear.
 Style tinted(Style style, Vec3f leaves);
 

@@ -9,9 +9,9 @@
 namespace leafhull::watercolour {
 namespace {
 
-constexpr double kSame = 0.01;  // in the plane of hues of Oklab: as good as no distance
+constexpr double kSame = 0.01;  // a negligible distance in Oklab's plane of hues
 
-/// How much a colour is like a tone; the fourth power of the distance parts them sharply.
+/// How much a colour is like a tone; the fourth power of the distance separates tones sharply.
 double likeness(Vec3d lab, Vec3d tone) {
   const double a = lab.y - tone.y, b = lab.z - tone.z;
   const double squared = a * a + b * b + kSame * kSame;

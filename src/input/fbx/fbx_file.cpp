@@ -117,7 +117,7 @@ class FbxReader {
       return;
     }
     const ufbx_mesh& mesh = *node.mesh;
-    // What joints have posed may stand in the world already.
+    // A mesh posed by joints may be in world coordinates already.
     const Transform to_world =
         mesh.skinned_is_local ? transform_of(node.geometry_to_world) : kIdentity;
     if (!is_finite_transform(to_world)) {

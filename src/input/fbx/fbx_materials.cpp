@@ -10,7 +10,7 @@
 namespace leafhull {
 namespace {
 
-/// The first picture behind a map: a texture, or what a layered one or a shader is made of.
+/// The first picture of a texture, which may be a file, layers or a shader.
 const ufbx_texture* file_of(const ufbx_texture* texture) {
   if (!texture) return nullptr;
   if (texture->type == UFBX_TEXTURE_FILE) return texture;

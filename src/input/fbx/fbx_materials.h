@@ -13,13 +13,13 @@
 
 namespace leafhull {
 
-/// Turns the materials of an FBX file into a tree's, as they are used.
+/// Turns the materials of an FBX file into a tree's when they are first used.
 class FbxMaterials {
  public:
   FbxMaterials(const Companions& companions, TreeModel& tree)
       : companions_(companions), tree_(tree) {}
 
-  /// The tree's number of a material; -1 for none.
+  /// The index of a material in the tree; -1 for none.
   int use(const ufbx_material* material);
 
   /// Decodes the images of the materials that are used.

@@ -14,7 +14,7 @@
 namespace leafhull {
 namespace {
 
-/// What a corner of a triangle has.
+/// The attributes of a triangle's corner.
 struct FbxCorner {
   Vec3f position, normal, color;
   Vec2f uv;
@@ -92,7 +92,7 @@ std::optional<Primitive> read_fbx_part(const ufbx_mesh& mesh, const ufbx_mesh_pa
   }
   if (corners.empty()) return std::nullopt;
 
-  // Corners that are alike are one vertex.
+  // Equal corners become one vertex.
   std::vector<std::uint32_t> numbers(corners.size());
   const ufbx_vertex_stream stream{corners.data(), corners.size(), sizeof(FbxCorner)};
   ufbx_error error;

@@ -10,8 +10,8 @@
 
 namespace leafhull {
 
-/// The faces of a mesh that have the material of one of its slots, as triangles, posed; nothing
-/// where there are none. Its material is not set.
+/// The faces of a mesh in one material slot, as posed triangles; none if there are none. The
+/// material is not set.
 /// @param colour the texture whose coordinates are read, or null.
 /// @throws Error input: a position is not finite.
 std::optional<Primitive> read_fbx_part(const ufbx_mesh& mesh, const ufbx_mesh_part& part,
