@@ -24,6 +24,11 @@ std::string_view listed_cameras() {
   return text;
 }
 
+std::string_view listed_sides() {
+  static const std::string text = "1 to " + std::to_string(kLargestSide) + " each";
+  return text;
+}
+
 /// A viewpoint by its name, else the camera in a file.
 std::variant<Viewpoint, View> camera_of(const std::string& text, const ReadOptions& reading) {
   const auto valid = names(Viewpoint{});
@@ -83,7 +88,7 @@ std::span<const RenderOptionRow> render_table() {
       Row("Picture", "size", std::pair(&RenderOptions::width, &RenderOptions::height),
           {1, kLargestSide}, "width and height",
           {.unit = "pixels",
-           .range = "1 to 16384 each",
+           .range = listed_sides(),
            .default_value = "1024x1024",
            .value = "WxH"}),
       Row("Picture", "camera", &RenderOptions::camera_name,
