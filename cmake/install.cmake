@@ -2,8 +2,18 @@
 # third-party package of its own.
 set(leafhull_cmake_dir ${CMAKE_INSTALL_LIBDIR}/cmake/leafhull)
 
+set(RENDER_HEADERS picture render)
+set(STUDY_HEADERS study sweep)
+set(FOREST_HEADERS forest ranks scene)
+foreach(part RENDER STUDY FOREST)
+  if(NOT LEAFHULL_${part})
+    foreach(header IN LISTS ${part}_HEADERS)
+      list(APPEND left_out PATTERN ${header}.h EXCLUDE)
+    endforeach()
+  endif()
+endforeach()
 install(DIRECTORY include/leafhull ${PROJECT_BINARY_DIR}/include/leafhull
-        DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
+        DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h" ${left_out})
 install(TARGETS leafhull EXPORT leafhullTargets)
 install(EXPORT leafhullTargets NAMESPACE leafhull:: DESTINATION ${leafhull_cmake_dir})
 install(FILES LICENSE NOTICE DESTINATION ${CMAKE_INSTALL_DOCDIR})

@@ -335,4 +335,10 @@ Verb forest_verb() {
       .run = run_forest_verb};
 }
 
+Verb help_forests_verb() {
+  return table_verb("help-forests", "Prints the options of forests as Markdown tables.",
+                    "  leafhull help-forests\n",
+                    [](const Arguments&) { std::cout << markdown(forest_flags()); });
+}
+
 }  // namespace leafhull::cli

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "cli/values.h"
-#include "leafhull/render.h"
+#include "leafhull/options.h"
 
 namespace leafhull::cli {
 namespace {
@@ -97,18 +97,6 @@ std::string styles_and_presets() {
   return text + "  " + presets + "\n";
 }
 
-/// A verb that prints tables for the documentation.
-Verb table_verb(std::string_view name, std::string_view about, std::string_view examples,
-                void (*run)(const Arguments&)) {
-  return {.name = name,
-          .summary = about,
-          .about = about,
-          .examples = examples,
-          .hidden = true,
-          .flags = help_flags(),
-          .run = run};
-}
-
 }  // namespace
 
 std::string spelled(const OptionLine& line) {
@@ -182,28 +170,21 @@ std::string markdown(std::span<const Flag> flags) {
   return page;
 }
 
+Verb table_verb(std::string_view name, std::string_view about, std::string_view examples,
+                void (*run)(const Arguments&)) {
+  return {.name = name,
+          .summary = about,
+          .about = about,
+          .examples = examples,
+          .hidden = true,
+          .flags = help_flags(),
+          .run = run};
+}
+
 Verb help_options_verb() {
   return table_verb("help-options", "Prints the options of extract as Markdown tables.",
                     "  leafhull help-options\n",
                     [](const Arguments&) { std::cout << markdown(extract_verb().flags); });
-}
-
-Verb help_forests_verb() {
-  return table_verb("help-forests", "Prints the options of forests as Markdown tables.",
-                    "  leafhull help-forests\n",
-                    [](const Arguments&) { std::cout << markdown(forest_flags()); });
-}
-
-Verb help_pictures_verb() {
-  return table_verb("help-pictures", "Prints the options of pictures as Markdown tables.",
-                    "  leafhull help-pictures\n",
-                    [](const Arguments&) { std::cout << markdown(render_flags()); });
-}
-
-Verb help_styles_verb() {
-  return table_verb("help-styles", "Prints the keys of watercolour styles as a Markdown table.",
-                    "  leafhull help-styles\n",
-                    [](const Arguments&) { std::cout << watercolour_style_table(); });
 }
 
 }  // namespace leafhull::cli

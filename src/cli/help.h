@@ -22,4 +22,8 @@ std::string verb_help(const Verb& verb);
 /// The flags as Markdown tables, one per group.
 std::string markdown(std::span<const Flag> flags);
 
+/// A hidden verb that prints tables for the documentation.
+Verb table_verb(std::string_view name, std::string_view about, std::string_view examples,
+                void (*run)(const Arguments&));
+
 }  // namespace leafhull::cli

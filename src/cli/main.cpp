@@ -52,6 +52,10 @@ void refuse_extras(std::vector<std::string> extras, const Verb& verb) {
   const std::string remedy = "Choose from: " + joined(valid, ", ") + ". See leafhull --help.";
   if (words.empty()) throw Error(ErrorCode::usage, "no verb is given", remedy);
   if (is_option(words.front())) refuse_option(words.front(), help_flags(), remedy);
+  if (const std::string_view option = option_that_brings(words.front()); !option.empty()) {
+    throw Error(ErrorCode::usage, "this leafhull was built without " + words.front(),
+                "Configure it with -D" + std::string(option) + "=ON and build it again.");
+  }
   throw Error(ErrorCode::usage, "the verb '" + words.front() + "' is unknown",
               with_guess(words.front(), valid, remedy));
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iostream>
 #include <memory>
 #include <span>
 #include <string>
@@ -12,6 +13,7 @@
 
 #include "cli/context.h"
 #include "cli/flags.h"
+#include "cli/help.h"
 #include "cli/signals.h"
 #include "cli/values.h"
 #include "cli/verb.h"
@@ -240,6 +242,18 @@ Verb render_verb() {
       .flags =
           all_of({render_flags(), option_flags(), device_flags(), console_flags(), help_flags()}),
       .run = run_render};
+}
+
+Verb help_pictures_verb() {
+  return table_verb("help-pictures", "Prints the options of pictures as Markdown tables.",
+                    "  leafhull help-pictures\n",
+                    [](const Arguments&) { std::cout << markdown(render_flags()); });
+}
+
+Verb help_styles_verb() {
+  return table_verb("help-styles", "Prints the keys of watercolour styles as a Markdown table.",
+                    "  leafhull help-styles\n",
+                    [](const Arguments&) { std::cout << watercolour_style_table(); });
 }
 
 }  // namespace leafhull::cli

@@ -27,6 +27,9 @@ struct Verb {
 /// In the order in which they are listed.
 std::vector<Verb> all_verbs();
 
+/// The option of CMake that a verb is left out without; empty for a verb that is here, or nowhere.
+std::string_view option_that_brings(std::string_view verb);
+
 Verb extract_verb();
 Verb inspect_verb();
 Verb sweep_verb();
