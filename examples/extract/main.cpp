@@ -19,6 +19,8 @@ int main(int argc, char** argv) {
     leafhull::Options options;
     options.preset = leafhull::Preset::draft;
 
+    const leafhull::OutputPlan plan = leafhull::plan_outputs({.shapes = {shape_path}}, tree_path);
+
     if (leafhull::list_devices({}).empty()) throw std::runtime_error("no OpenCL device is listed");
     leafhull::Device device(leafhull::DeviceOptions{});
 
@@ -26,10 +28,7 @@ int main(int argc, char** argv) {
     const leafhull::LeafSet leaves = leafhull::find_leaves(tree, options.leaf_options());
     const leafhull::Shape shape = leafhull::extract(leaves, options, device);
 
-    leafhull::OutputFiles files;
-    files.shapes = {shape_path};
-    leafhull::check_outputs(files, tree_path);
-    leafhull::write_outputs(files, shape, {tree_path.string(), {"extract"}});
+    leafhull::write_outputs(plan, shape, {tree_path.string(), {"extract"}});
 
     std::cout << "leafhull " << leafhull::kVersion << ": " << leaves.leaf_count << " leaves, "
               << shape.mesh.triangles.size() << " triangles on " << shape.report.device << '\n';

@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "leafhull/option_row.h"
@@ -31,10 +32,23 @@ struct RunDescription {
   std::vector<std::string> command;
 };
 
-/// Looks at the names before any work is done.
+/// Output files that can be written: plan_outputs() has checked their names.
+class OutputPlan {
+ public:
+  const OutputFiles& files() const { return files_; }
+
+ private:
+  friend OutputPlan plan_outputs(OutputFiles files, const std::filesystem::path& input);
+  explicit OutputPlan(OutputFiles files) : files_(std::move(files)) {}
+
+  OutputFiles files_;
+};
+
+/// Checks the names before any work is done.
+/// @param input the file that the shape is made of.
 /// @throws Error usage: an unknown extension, one file named twice, or the input itself;
 ///         output: a folder that does not exist or cannot be written to.
-void check_outputs(const OutputFiles& files, const std::filesystem::path& input);
+OutputPlan plan_outputs(OutputFiles files, const std::filesystem::path& input);
 
 /// Looks at a folder for results before any work is done. It need not exist.
 /// @throws Error output: it could not be made or written to.
@@ -42,14 +56,14 @@ void check_output_folder(const std::filesystem::path& folder);
 
 /// A line where files of floats, .stl and the kernels, lose some of the form of a shape that lies
 /// far from the origin.
-std::vector<std::string> rounding_warnings(const OutputFiles& files, const Shape& shape);
+std::vector<std::string> rounding_warnings(const OutputPlan& plan, const Shape& shape);
 
 /// Writes everything under temporary names, then renames: all files or none. A report's seconds
 /// gain `write`, what the other files took.
 /// @throws Error output: which file and why.
-void write_outputs(const OutputFiles& files, const Shape& shape, const RunDescription& run);
+void write_outputs(const OutputPlan& plan, const Shape& shape, const RunDescription& run);
 
-/// As check_outputs, for a file that `write_file` is to write.
+/// As plan_outputs, for a file that `write_file` is to write.
 void check_output(const std::filesystem::path& file, std::string_view extension,
                   const std::filesystem::path& input);
 

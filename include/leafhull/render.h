@@ -120,12 +120,6 @@ struct PictureOptions {
 
 inline constexpr int kLargestSide = 16384;
 
-/// Looks at what a picture would take, before any work is done. Without a device the host's memory
-/// alone is asked.
-/// @throws Error usage: a side out of range, or more memory than there is: how much is needed and
-/// the largest size that fits.
-void check_picture(const PictureOptions& options, const DeviceInfo* device = nullptr);
-
 struct Rendering {
   Picture picture;
   std::shared_ptr<const render::Buffers> buffers;  ///< what encode_exr takes
@@ -135,27 +129,13 @@ struct Rendering {
 
 /// A picture of the subject: the same bytes for the same subject, options and device.
 /// @param progress `done` is the share of the picture.
-/// @throws Error as check_picture does; device.
+/// @throws Error usage: a side out of range, or more memory than there is; device.
 Rendering draw(const Subject& subject, const PictureOptions& options, Device& device,
                const Progress& progress = {});
 
 /// The picture and what its pixels see, as an OpenEXR file: R G B, A, Z, N, P, id, key, open,
 /// foliage, wood.
 std::vector<std::uint8_t> encode_exr(const Rendering& rendering);
-
-/// Where the pictures of one run go.
-struct PictureFiles {
-  std::vector<std::filesystem::path> files;  ///< .png and .exr; of a turntable .mp4 and .webp, too
-  int frames = 0;                            ///< of a turntable; 0: one picture
-};
-
-/// Looks at the names before any work is done.
-/// @param subjects how many write_pictures() will be given.
-/// @throws Error usage: no name, an extension that is unknown or that stands for a film of one
-/// picture or for the buffers of several subjects, one file twice, or the input itself; output: a
-/// folder that does not exist or cannot be written to, or a film without ffmpeg.
-void check_pictures(const PictureFiles& files, const std::filesystem::path& input,
-                    std::size_t subjects = 1);
 
 /// What was written.
 struct PictureSummary {
@@ -165,21 +145,8 @@ struct PictureSummary {
   std::vector<std::string> warnings;
 };
 
-/// Draws and writes, one file after the other, each whole or not at all. Several subjects stand in
-/// one picture, from left to right, each of `options`' size. The frames of a turntable are
-/// numbered, picture-0001.png; beside them comes picture.mp4 where ffmpeg is on the PATH.
-/// @param progress `done` is the share of all pictures.
-/// @throws Error as draw does; output: which file and why.
-PictureSummary write_pictures(std::span<const Subject> subjects, const PictureOptions& options,
-                              const PictureFiles& files, Device& device,
-                              const Progress& progress = {});
-
 /// Whose values the rows of a plate have: leafhull's styles of leaf area, or the paper's.
 enum class Plate { own, paper };
-
-/// Looks at what figure17() would take, before any work is done; see check_picture.
-/// @throws Error usage, as check_picture; or a sheet that is too large for a PNG file.
-void check_figure17(const PictureOptions& picture, const DeviceInfo* device = nullptr);
 
 /// The plate of the paper's Figure 17: thin, fat and the previous method, in Phong shading and in
 /// watercolour. Each row sets the style, over which what else is in `options` wins, and the method;
@@ -196,7 +163,7 @@ std::span<const std::string_view> names(Drawn);
 
 /// What `leafhull render` asks for, as it is typed.
 struct RenderOptions : PictureOptions {
-  std::vector<std::filesystem::path> files;   ///< as of PictureFiles
+  std::vector<std::filesystem::path> files;   ///< .png and .exr; of a turntable .mp4 and .webp too
   std::optional<int> frames;                  ///< of a turntable; empty: one picture
   std::string camera_name = "three-quarter";  ///< a viewpoint, or the file of a View
   std::optional<Surfacing> surfacing;         ///< empty: a mesh of a shape, else direct
@@ -205,8 +172,6 @@ struct RenderOptions : PictureOptions {
   std::optional<Drawn> drawn_as;              ///< empty: by the names in the file
   bool beside = false;                        ///< the tree itself to the left of its shape
   std::optional<Plate> figure17;              ///< a plate in place of a picture
-
-  PictureFiles picture_files() const { return {files, frames.value_or(0)}; }
 };
 
 void describe(OptionLine& line, Plate value);
@@ -226,11 +191,43 @@ std::span<const RenderOptionRow> render_table();
 /// Whether a file is drawn as a density: a .vdb file.
 bool is_field(const std::filesystem::path& subject);
 
-/// The picture that is asked for, with its camera and its style, which are read. All is checked but
-/// the subject itself, and what a device takes.
-/// @throws Error usage: a value out of range, options or files that contradict each other; input:
-/// a camera or a style that cannot be read; output, as check_pictures.
-PictureOptions picture_of(const RenderOptions& options, const std::filesystem::path& subject,
-                          const ReadOptions& reading);
+/// The file names of pictures, by format.
+struct FilePlan {
+  std::vector<std::filesystem::path> png, exr;  ///< of a turntable without numbers
+  std::vector<std::filesystem::path> films;
+  int frames = 0;                   ///< of a turntable; 0: one picture
+  bool film_was_asked_for = false;  ///< by name; otherwise films come along with the frames
+  bool film_is_missing = false;     ///< a film would come along, but there is no ffmpeg
+};
+
+/// Pictures that can be drawn and written: plan_pictures() has checked them.
+struct PicturePlan {
+  PictureOptions picture;  ///< with its camera and its style
+  FilePlan files;
+  std::optional<Plate> plate;
+};
+
+/// Checks all that is asked for but the subject itself and what a device takes, and reads the
+/// camera and the style.
+/// @param subject the file that is drawn.
+/// @throws Error usage: a value out of range, options that contradict each other, more memory than
+/// the host has (and the largest size that fits), no name, an extension that is unknown or that
+/// stands for a film of one picture or for the buffers of several subjects, one file twice, or the
+/// subject itself; input: a camera or a style that cannot be read; output: a folder that does not
+/// exist or cannot be written to, or a film without ffmpeg.
+PicturePlan plan_pictures(const RenderOptions& options, const std::filesystem::path& subject,
+                          const ReadOptions& reading = {});
+
+/// @throws Error usage: the pictures need more memory than the device has, and the largest size
+/// that fits.
+void check_device(const PicturePlan& plan, const DeviceInfo& device);
+
+/// Draws and writes, one file after the other, each whole or not at all. Several subjects stand in
+/// one picture, from left to right, each of the plan's size. The frames of a turntable are
+/// numbered, picture-0001.png; beside them comes picture.mp4 where ffmpeg is on the PATH.
+/// @param progress `done` is the share of all pictures.
+/// @throws Error as draw does; output: which file and why.
+PictureSummary write_pictures(std::span<const Subject> subjects, const PicturePlan& plan,
+                              Device& device, const Progress& progress = {});
 
 }  // namespace leafhull

@@ -105,7 +105,7 @@ void run_extract(const Arguments& arguments) {
   Context context(arguments);
   check_extract_arguments(arguments);
   const Options options = resolve(arguments.options);
-  check_outputs(arguments.files, arguments.operand);
+  const OutputPlan plan = plan_outputs(arguments.files, arguments.operand);
   context.warn(without_effect(arguments, options));
   catch_signals();
 
@@ -114,13 +114,13 @@ void run_extract(const Arguments& arguments) {
   Shape shape = extract(leaves, options, context.device(), context.progress());
   Report& report = shape.report;
   context.warn(report.warnings);
-  context.warn(rounding_warnings(arguments.files, shape));
+  context.warn(rounding_warnings(plan, shape));
   report.warnings = context.warnings();
   context.add_times(report.seconds);
   report.seconds = context.times();
   report.peak_memory_bytes = peak_memory_bytes();
   context.timed("write", [&] {
-    write_outputs(arguments.files, shape, {arguments.operand.string(), arguments.command});
+    write_outputs(plan, shape, {arguments.operand.string(), arguments.command});
     return true;
   });
 

@@ -10,6 +10,7 @@
 
 #include "cli/context.h"
 #include "cli/forest_words.h"
+#include "cli/help.h"
 #include "cli/values.h"
 #include "cli/verb.h"
 #include "leafhull/error.h"

@@ -34,15 +34,6 @@ Surfacing surfacing(const Arguments& arguments) {
   throw Error(ErrorCode::usage, what, remedy);
 }
 
-void check_size(const Arguments& arguments, const PictureOptions& drawing,
-                const DeviceInfo* device = nullptr) {
-  if (arguments.render.figure17) {
-    check_figure17(drawing, device);
-  } else {
-    check_picture(drawing, device);
-  }
-}
-
 /// Options that were typed but change nothing.
 std::vector<std::string> without_effect(const Arguments& arguments, bool is_tree) {
   std::vector<std::string> warnings;
@@ -80,8 +71,8 @@ std::vector<std::string> without_effect(const Arguments& arguments, bool is_tree
 /// Reads and draws; what is asked of it is checked.
 class Run {
  public:
-  Run(const Arguments& arguments, const PictureOptions& drawing, Context& context)
-      : arguments_(arguments), drawing_(drawing), context_(context) {
+  Run(const Arguments& arguments, const PicturePlan& plan, Context& context)
+      : arguments_(arguments), plan_(plan), context_(context) {
     context.open_device(arguments.options.falloff);
   }
 
@@ -108,7 +99,7 @@ class Run {
  private:
   Device& open() {
     Device& device = context_.device();
-    check_size(arguments_, drawing_, &device.info());
+    check_device(plan_, device.info());
     context_.console.detail("device      " + device.info().name);
     return device;
   }
@@ -153,8 +144,9 @@ class Run {
   void write_figure17(const std::shared_ptr<const TreeModel>& model, const LeafSet& leaves,
                       Device& device) {
     const fs::path& file = arguments_.render.files.front();
-    const Picture plate = figure17(model, leaves, arguments_.options, *arguments_.render.figure17,
-                                   surfacing(arguments_), drawing_, device, context_.progress());
+    const Picture plate =
+        figure17(model, leaves, arguments_.options, *arguments_.render.figure17,
+                 surfacing(arguments_), plan_.picture, device, context_.progress());
     const std::vector<std::uint8_t> png = encode_png(plate);
     write_file(file, {reinterpret_cast<const char*>(png.data()), png.size()});
     context_.console.say("leafhull: Figure 17 of " + arguments_.operand.filename().string() +
@@ -171,17 +163,16 @@ class Run {
     }
     const int frames = arguments_.render.frames.value_or(0);
     const PictureSummary summary =
-        write_pictures(row, drawing_, arguments_.render.picture_files(), device,
-                       [&](std::string_view stage, double done) {
-                         if (frames == 0) {
-                           context_.console.progress(stage, done);
-                         } else {
-                           // A frame counts once it is drawn; its share is not exact.
-                           context_.console.progress(
-                               stage, static_cast<std::size_t>(std::floor(done * frames + 1e-6)),
-                               static_cast<std::size_t>(frames));
-                         }
-                       });
+        write_pictures(row, plan_, device, [&](std::string_view stage, double done) {
+          if (frames == 0) {
+            context_.console.progress(stage, done);
+          } else {
+            // A frame counts once it is drawn; its share is not exact.
+            context_.console.progress(stage,
+                                      static_cast<std::size_t>(std::floor(done * frames + 1e-6)),
+                                      static_cast<std::size_t>(frames));
+          }
+        });
     context_.warn(summary.warnings);
     context_.say_stages(report.seconds, "", 10);
     context_.say_stages(summary.seconds, "", 10);
@@ -192,26 +183,26 @@ class Run {
     const int frames = arguments_.render.frames.value_or(0);
     std::string where;
     for (const fs::path& file : summary.files) where += (where.empty() ? "" : ", ") + file.string();
-    context_.console.say("leafhull: " + std::to_string(drawing_.width) + "x" +
-                         std::to_string(drawing_.height) + " pixels" +
+    context_.console.say("leafhull: " + std::to_string(plan_.picture.width) + "x" +
+                         std::to_string(plan_.picture.height) + " pixels" +
                          (frames > 0 ? ", " + std::to_string(frames) + " frames" : "") + " in " +
                          seconds(context_.elapsed()) + ": " + where);
   }
 
   const Arguments& arguments_;
-  const PictureOptions& drawing_;
+  const PicturePlan& plan_;
   Context& context_;
 };
 
 void run_render(const Arguments& arguments) {
   Context context(arguments);
   (void)resolve(arguments.options);
-  const PictureOptions drawing =
-      picture_of(arguments.render, arguments.operand, arguments.options.read_options());
+  const PicturePlan plan =
+      plan_pictures(arguments.render, arguments.operand, arguments.options.read_options());
   catch_signals(arguments.render.frames && !arguments.quiet
                     ? "leafhull: stopped; the frames so far are written\n"
                     : "");
-  Run(arguments, drawing, context)();
+  Run(arguments, plan, context)();
 }
 
 }  // namespace

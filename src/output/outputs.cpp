@@ -122,7 +122,7 @@ void write_to_standard_output(const std::string& text) {
 
 }  // namespace
 
-void check_outputs(const OutputFiles& files, const fs::path& input) {
+OutputPlan plan_outputs(OutputFiles files, const fs::path& input) {
   for (const fs::path& shape : files.shapes) format_of(shape);
   if (files.kernels) check_extension(*files.kernels, "the kernels", ".ply");
   if (files.field) check_extension(*files.field, "the field", ".vdb");
@@ -142,9 +142,11 @@ void check_outputs(const OutputFiles& files, const fs::path& input) {
           "Name each output differently.");
     }
   }
+  return OutputPlan(std::move(files));
 }
 
-std::vector<std::string> rounding_warnings(const OutputFiles& files, const Shape& shape) {
+std::vector<std::string> rounding_warnings(const OutputPlan& plan, const Shape& shape) {
+  const OutputFiles& files = plan.files();
   constexpr double kVisible = 0.05;  // of a voxel
   std::vector<fs::path> rounded;
   for (const fs::path& file : files.shapes) {
@@ -165,7 +167,8 @@ std::vector<std::string> rounding_warnings(const OutputFiles& files, const Shape
   return warnings;
 }
 
-void write_outputs(const OutputFiles& files, const Shape& shape, const RunDescription& run) {
+void write_outputs(const OutputPlan& plan, const Shape& shape, const RunDescription& run) {
+  const OutputFiles& files = plan.files();
   using Clock = std::chrono::steady_clock;
   const Clock::time_point begin = Clock::now();
   Transaction transaction;

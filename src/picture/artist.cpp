@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "leafhull/error.h"
+#include "picture/check_picture.h"
 #include "picture/parts.h"
 #include "pipeline/stopwatch.h"
 #include "render/draw_buffers.h"

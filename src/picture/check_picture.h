@@ -17,4 +17,14 @@ void check_sides(const PictureOptions& options);
 /// @throws Error usage, as check_picture.
 void check_memory(const PictureOptions& options, const DeviceInfo* device, double kept);
 
+/// Looks at what a picture would take, before any work is done. Without a device the host's memory
+/// alone is asked.
+/// @throws Error usage: a side out of range, or more memory than there is: how much is needed and
+/// the largest size that fits.
+void check_picture(const PictureOptions& options, const DeviceInfo* device = nullptr);
+
+/// The same for what figure17() would take.
+/// @throws Error usage, as check_picture; or a sheet that is too large for a PNG file.
+void check_figure17(const PictureOptions& picture, const DeviceInfo* device = nullptr);
+
 }  // namespace leafhull

@@ -53,6 +53,7 @@ fs::path numbered(const fs::path& file, int number) {
 
 FilePlan plan_files(const PictureFiles& files) {
   FilePlan plan;
+  plan.frames = files.frames;
   for (const fs::path& file : files.files) {
     const std::string extension = lower_extension(file);
     if (extension == ".png") {
@@ -72,7 +73,7 @@ FilePlan plan_files(const PictureFiles& files) {
   return plan;
 }
 
-void check_pictures(const PictureFiles& files, const fs::path& input, std::size_t subjects) {
+FilePlan checked_files(const PictureFiles& files, const fs::path& input, std::size_t subjects) {
   if (files.files.empty()) {
     throw Error(ErrorCode::usage, "no output is named", "Name one, such as -o picture.png.");
   }
@@ -105,6 +106,7 @@ void check_pictures(const PictureFiles& files, const fs::path& input, std::size_
     }
   }
   for (const fs::path& film : plan.films) check(film);
+  return plan;
 }
 
 }  // namespace leafhull

@@ -9,16 +9,21 @@
 
 namespace leafhull {
 
-/// The file names of one run's pictures, by format.
-struct FilePlan {
-  std::vector<std::filesystem::path> png, exr;  ///< of a turntable without numbers
-  std::vector<std::filesystem::path> films;
-  bool film_was_asked_for = false;  ///< by name; otherwise films come along with the frames
-  bool film_is_missing = false;     ///< a film would come along, but there is no ffmpeg
+/// Where the pictures of one run go.
+struct PictureFiles {
+  std::vector<std::filesystem::path> files;  ///< .png and .exr; of a turntable .mp4 and .webp too
+  int frames = 0;                            ///< of a turntable; 0: one picture
 };
 
-/// @throws Error usage, as check_pictures.
+/// Sorts the names.
+/// @throws Error usage: an extension that is unknown, or a film of one picture.
 FilePlan plan_files(const PictureFiles& files);
+
+/// The same, and looks where the files would go.
+/// @param subjects how many stand in a picture.
+/// @throws Error as plan_pictures.
+FilePlan checked_files(const PictureFiles& files, const std::filesystem::path& input,
+                       std::size_t subjects = 1);
 
 /// The name of frame `number`, from 1: picture-0001.png for picture.png.
 std::filesystem::path numbered(const std::filesystem::path& file, int number);

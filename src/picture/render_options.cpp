@@ -5,6 +5,8 @@
 
 #include "leafhull/error.h"
 #include "leafhull/render.h"
+#include "picture/check_picture.h"
+#include "picture/files.h"
 #include "text/choice.h"
 #include "text/file_name.h"
 
@@ -74,6 +76,14 @@ void check_beside(const RenderOptions& options, const std::filesystem::path& sub
   }
 }
 
+void check_sizes(const PicturePlan& plan, const DeviceInfo* device) {
+  if (plan.plate) {
+    check_figure17(plan.picture, device);
+  } else {
+    check_picture(plan.picture, device);
+  }
+}
+
 }  // namespace
 
 void describe(OptionLine& line, Plate) { line.default_value = "off"; }
@@ -122,21 +132,20 @@ std::span<const RenderOptionRow> render_table() {
 
 bool is_field(const std::filesystem::path& subject) { return lower_extension(subject) == ".vdb"; }
 
-PictureOptions picture_of(const RenderOptions& options, const std::filesystem::path& subject,
+PicturePlan plan_pictures(const RenderOptions& options, const std::filesystem::path& subject,
                           const ReadOptions& reading) {
   check_rows(render_table(), options);
   if (options.figure17) check_plate(options, subject);
   if (options.beside) check_beside(options, subject);
-  check_pictures(options.picture_files(), subject, options.beside ? 2 : 1);
-  PictureOptions picture = options;
-  picture.camera = camera_of(options.camera_name, reading);
-  picture.style = style_of(options.style_name, options.detail);
-  if (options.figure17) {
-    check_figure17(picture);
-  } else {
-    check_picture(picture);
-  }
-  return picture;
+  PicturePlan plan{options, {}, options.figure17};
+  plan.files =
+      checked_files({options.files, options.frames.value_or(0)}, subject, options.beside ? 2 : 1);
+  plan.picture.camera = camera_of(options.camera_name, reading);
+  plan.picture.style = style_of(options.style_name, options.detail);
+  check_sizes(plan, nullptr);
+  return plan;
 }
+
+void check_device(const PicturePlan& plan, const DeviceInfo& device) { check_sizes(plan, &device); }
 
 }  // namespace leafhull

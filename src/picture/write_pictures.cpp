@@ -9,6 +9,7 @@
 #include "leafhull/output.h"
 #include "leafhull/render.h"
 #include "picture/artist.h"
+#include "picture/check_picture.h"
 #include "picture/files.h"
 #include "picture/film.h"
 #include "picture/side_by_side.h"
@@ -129,13 +130,13 @@ Rendering draw_row(Artist& artist, std::span<const Subject> subjects, const Pict
 
 }  // namespace
 
-PictureSummary write_pictures(std::span<const Subject> subjects, const PictureOptions& asked,
-                              const PictureFiles& files, Device& device, const Progress& progress) {
-  const FilePlan plan = plan_files(files);
-  PictureOptions options = asked;
+PictureSummary write_pictures(std::span<const Subject> subjects, const PicturePlan& plan,
+                              Device& device, const Progress& progress) {
+  const FilePlan& files = plan.files;
+  PictureOptions options = plan.picture;
   check_picture(options, &device.info());
   PictureSummary summary;
-  Films films(plan, row_width(options.width, subjects.size()), options.height, files.frames,
+  Films films(files, row_width(options.width, subjects.size()), options.height, files.frames,
               summary.warnings);
   Artist artist(device);
   const int pictures = std::max(files.frames, 1);
@@ -156,27 +157,27 @@ PictureSummary write_pictures(std::span<const Subject> subjects, const PictureOp
     const auto name = [&](const fs::path& file) {
       return files.frames > 0 ? numbered(file, i + 1) : file;
     };
-    if (!plan.png.empty()) {
+    if (!files.png.empty()) {
       const std::vector<std::uint8_t> png = encode_png(rendering.picture);
-      for (const fs::path& file : plan.png) write_bytes(name(file), png);
+      for (const fs::path& file : files.png) write_bytes(name(file), png);
     }
-    if (!plan.exr.empty()) {
+    if (!files.exr.empty()) {
       const std::vector<std::uint8_t> exr = encode_exr(rendering);
-      for (const fs::path& file : plan.exr) write_bytes(name(file), exr);
+      for (const fs::path& file : files.exr) write_bytes(name(file), exr);
     }
     films.add(rendering.picture);
     add_times(summary.seconds, watch.finish());
   }
   const bool with_films = films.finish();
   if (progress) progress("write", 1);
-  if (files.frames > 0) warn_of_older_frames(plan, files.frames, summary.warnings);
+  if (files.frames > 0) warn_of_older_frames(files, files.frames, summary.warnings);
   if (summary.blank > 0) {
     summary.warnings.push_back(pictures == 1
                                    ? "nothing is in view: the picture is white paper"
                                    : "nothing is in view in " + std::to_string(summary.blank) +
                                          " of " + std::to_string(pictures) + " frames");
   }
-  summary.files = first_files(plan, files.frames, with_films);
+  summary.files = first_files(files, files.frames, with_films);
   return summary;
 }
 

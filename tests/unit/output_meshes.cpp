@@ -136,20 +136,22 @@ TEST(Stl, HoldsTheTrianglesInTheWorld) {
 }
 
 TEST(Stl, IsSaidToLoseDigitsFarOut) {
-  const OutputFiles files{.shapes = {"a.glb", "a.STL", "a.ply"}, .kernels = "k.ply"};
+  const OutputPlan plan =
+      plan_outputs({.shapes = {"a.glb", "a.STL", "a.ply"}, .kernels = "k.ply"}, "tree.glb");
   Shape shape = sample_shape();
-  EXPECT_TRUE(rounding_warnings(files, shape).empty());
+  EXPECT_TRUE(rounding_warnings(plan, shape).empty());
   shape.mesh = sphere(6, kFarOut);
-  const std::vector<std::string> warnings = rounding_warnings(files, shape);
+  const std::vector<std::string> warnings = rounding_warnings(plan, shape);
   ASSERT_EQ(warnings.size(), 2u);
   EXPECT_TRUE(
       warnings[0].starts_with("a.STL: so far from the origin its floats are 0.062 apart, "
                               "and a voxel is 0.1; "))
       << warnings[0];
   EXPECT_TRUE(warnings[1].starts_with("k.ply: ")) << warnings[1];
-  EXPECT_TRUE(rounding_warnings({.shapes = {"a.glb", "a.ply"}}, shape).empty());
+  EXPECT_TRUE(
+      rounding_warnings(plan_outputs({.shapes = {"a.glb", "a.ply"}}, "tree.glb"), shape).empty());
   shape.report.voxel_size = 10;
-  EXPECT_TRUE(rounding_warnings(files, shape).empty());
+  EXPECT_TRUE(rounding_warnings(plan, shape).empty());
 }
 
 TEST(Kernels, StandInTheOrderOfTheSpecification) {

@@ -19,7 +19,7 @@ class OutputNames : public ::testing::Test {
   /// What is wrong with the names; empty where nothing is.
   std::string complaint(const OutputFiles& files, ErrorCode code) {
     try {
-      check_outputs(files, input_);
+      plan_outputs(files, input_);
       return "";
     } catch (const Error& error) {
       EXPECT_EQ(error.code(), code) << error.what();

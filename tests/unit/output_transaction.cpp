@@ -180,7 +180,7 @@ std::string failure_with_small_files(const OutputFiles& files, const Shape& shap
     ::setrlimit(RLIMIT_FSIZE, &limit);
     std::string message = "written";
     try {
-      write_outputs(files, shape, {});
+      write_outputs(plan_outputs(files, "tree.glb"), shape, {});
     } catch (const Error& error) {
       message = std::to_string(static_cast<int>(error.code())) + " " + error.what();
     }
@@ -208,7 +208,7 @@ TEST(Outputs, AreAllWrittenOrNone) {
   EXPECT_EQ(folder.names(), Names{"kernels.ply"});
   EXPECT_EQ(read_file(folder / "kernels.ply"), "old");
 
-  write_outputs(files, sample_shape(), {});
+  write_outputs(plan_outputs(files, "tree.glb"), sample_shape(), {});
   EXPECT_EQ(folder.names(), (Names{"kernels.ply", "report.json", "shape.glb", "shape.obj"}));
   EXPECT_NE(read_file(folder / "kernels.ply"), "old");
 }
@@ -227,7 +227,8 @@ TEST(Outputs, FailOnEveryFormatThatDoesNotFit) {
 TEST(Outputs, WriteTheReportToStandardOutput) {
   const TemporaryFolder folder;
   ::testing::internal::CaptureStdout();
-  write_outputs({.shapes = {folder / "a.stl"}, .report = "-"}, sample_shape(), {"tree.glb", {}});
+  write_outputs(plan_outputs({.shapes = {folder / "a.stl"}, .report = "-"}, "tree.glb"),
+                sample_shape(), {"tree.glb", {}});
   const auto report = nlohmann::json::parse(::testing::internal::GetCapturedStdout());
   EXPECT_EQ(report["input"], "tree.glb");
   EXPECT_EQ(folder.names(), Names{"a.stl"});

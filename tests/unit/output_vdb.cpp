@@ -14,7 +14,9 @@ namespace {
 TEST(Vdb, IsOpenedAgainByOpenVdb) {
   const TemporaryFolder folder;
   const Shape shape = sample_shape();
-  write_outputs({.shapes = {folder / "shape.vdb"}, .field = folder / "field.vdb"}, shape, {});
+  write_outputs(
+      plan_outputs({.shapes = {folder / "shape.vdb"}, .field = folder / "field.vdb"}, "tree.glb"),
+      shape, {});
   EXPECT_EQ(read_file(folder / "shape.vdb"), read_file(folder / "field.vdb"));
 
   openvdb::initialize();

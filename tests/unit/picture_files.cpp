@@ -32,7 +32,7 @@ class PictureFileNames : public testing::Test {
  protected:
   void expect_error(ErrorCode code, const std::string& part, const PictureFiles& files) {
     try {
-      check_pictures(files, input_);
+      checked_files(files, input_);
       ADD_FAILURE() << "no error with " << part;
     } catch (const Error& error) {
       const std::string message = error.what();
@@ -54,10 +54,10 @@ TEST(FrameNumbers, HaveFourDigitsOrMore) {
 }
 
 TEST_F(PictureFileNames, OfSubjectsInARow) {
-  EXPECT_NO_THROW(check_pictures({{out("a.png")}, 0}, input_, 2));
-  EXPECT_NO_THROW(check_pictures({{out("a.exr")}, 0}, input_, 1));
+  EXPECT_NO_THROW(checked_files({{out("a.png")}, 0}, input_, 2));
+  EXPECT_NO_THROW(checked_files({{out("a.exr")}, 0}, input_, 1));
   try {
-    check_pictures({{out("a.png"), out("b.exr")}, 0}, input_, 2);
+    checked_files({{out("a.png"), out("b.exr")}, 0}, input_, 2);
     FAIL() << "the buffers of which?";
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ErrorCode::usage);
@@ -66,7 +66,7 @@ TEST_F(PictureFileNames, OfSubjectsInARow) {
 }
 
 TEST_F(PictureFileNames, OfOnePicture) {
-  EXPECT_NO_THROW(check_pictures({{out("a.png"), out("b.exr"), out("c.PNG")}, 0}, input_));
+  EXPECT_NO_THROW(checked_files({{out("a.png"), out("b.exr"), out("c.PNG")}, 0}, input_));
   expect_error(ErrorCode::usage, "no output", {});
   expect_error(ErrorCode::usage, "a.jpg", {{out("a.jpg")}, 0});
   expect_error(ErrorCode::usage, "no extension", {{out("picture")}, 0});
@@ -84,7 +84,7 @@ TEST_F(PictureFileNames, OfATurntable) {
   input_ = out("a-0002.png");
   std::ofstream(input_) << "glTF";
   expect_error(ErrorCode::usage, "input itself", {{out("a.png")}, 3});
-  EXPECT_NO_THROW(check_pictures({{out("a.png")}, 1}, input_));
+  EXPECT_NO_THROW(checked_files({{out("a.png")}, 1}, input_));
   expect_error(ErrorCode::usage, "same file", {{out("b.png"), folder_ / "./b.png"}, 2});
 }
 
@@ -107,7 +107,7 @@ TEST_F(PictureFileNames, WithoutFfmpegOnlyANamedFilmIsRefused) {
   const FilePlan frames = plan_files({{"b.png"}, 3});
   EXPECT_TRUE(frames.films.empty());
   EXPECT_TRUE(frames.film_is_missing);
-  EXPECT_NO_THROW(check_pictures({{out("b.png")}, 3}, input_));
+  EXPECT_NO_THROW(checked_files({{out("b.png")}, 3}, input_));
   expect_error(ErrorCode::output, "ffmpeg", {{out("b.mp4")}, 3});
 }
 

@@ -11,6 +11,8 @@
 #include "leafhull/error.h"
 #include "leafhull/render.h"
 #include "picture/artist.h"
+#include "picture/check_picture.h"
+#include "picture/files.h"
 #include "picture/parts.h"
 #include "render/buffers.h"
 #include "temporary_folder.h"
@@ -127,8 +129,8 @@ TEST(Drawing, TellsHowFarItIs) {
 
   const TemporaryFolder folder;
   told.clear();
-  write_pictures({&subject, 1}, facing_the_cube(16, 16), {{folder / "a.exr"}, 3}, device(),
-                 progress);
+  write_pictures({&subject, 1}, {facing_the_cube(16, 16), plan_files({{folder / "a.exr"}, 3}), {}},
+                 device(), progress);
   EXPECT_TRUE(std::is_sorted(told.begin(), told.end(), by_share));
   EXPECT_EQ(told.back(), std::pair(std::string("write"), 1.0));
 }
