@@ -226,7 +226,8 @@ void check_device(const PicturePlan& plan, const DeviceInfo& device);
 /// one picture, from left to right, each of the plan's size. The frames of a turntable are
 /// numbered, picture-0001.png; beside them comes picture.mp4 where ffmpeg is on the PATH.
 /// @param progress `done` is the share of all pictures.
-/// @throws Error as draw does; output: which file and why.
+/// @throws Error as draw does; usage: no subject, or several where the plan has a .exr file;
+/// output: which file and why.
 PictureSummary write_pictures(std::span<const Subject> subjects, const PicturePlan& plan,
                               Device& device, const Progress& progress = {});
 

@@ -74,7 +74,7 @@ struct ScatterOptions {
   LeafOptions leaves;                        ///< of the trees
   ReadOptions reading;                       ///< of their files
   std::size_t count = 0;                     ///< at least 1
-  std::uint64_t seed = 1;
+  std::uint64_t seed = 1;                    ///< up to 2^31 - 1
   /// Sides of the rectangle along x and z, centred on the origin; empty: as wide as `spacing` asks.
   std::optional<Vec2d> area;
   /// Where `area` is empty, the square root of the area for a tree, in widths of the mean crown at

@@ -67,7 +67,6 @@ std::vector<StageTime> Context::times() const {
 void Context::say_stages(const std::vector<StageTime>& times, const std::string& indent,
                          std::size_t width) {
   for (const StageTime& time : times) {
-    if (!is_stage(time)) continue;
     std::string stage = time.stage;
     stage.resize(std::max(stage.size(), width), ' ');
     console.detail(indent + stage + "  " + seconds(time.seconds));

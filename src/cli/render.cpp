@@ -174,8 +174,10 @@ class Run {
           }
         });
     context_.warn(summary.warnings);
-    context_.say_stages(report.seconds, "", 10);
-    context_.say_stages(summary.seconds, "", 10);
+    for (std::vector<StageTime> times : {report.seconds, summary.seconds}) {
+      std::erase_if(times, [](const StageTime& time) { return time.stage == "total"; });
+      context_.say_stages(times, "", 10);
+    }
     say_files(summary);
   }
 

@@ -14,7 +14,7 @@ namespace {
 // Behind the magic and the version: how many there are of each, then the vertices, the components,
 // and the loose vertices with their origin; 32-bit integers and floats, 128 bits for a volume.
 constexpr std::array<char, 8> kMagic{'l', 'e', 'a', 'f', 's', 'e', 'a', 'm'};
-constexpr std::uint32_t kVersion1 = 1;
+constexpr std::uint32_t kSeamVersion = 2;
 
 static_assert(sizeof(SeamVertex) == 6 * 4, "it is written as it lies in memory");
 
@@ -64,7 +64,7 @@ class Reader {
 }  // namespace
 
 void write_seam(const Seam& seam, std::ostream& stream) {
-  write_record(stream, kMagic, kVersion1, seam.own_vertices, size_of(seam.borrowed),
+  write_record(stream, kMagic, kSeamVersion, seam.own_vertices, size_of(seam.borrowed),
                size_of(seam.lent), size_of(seam.components), size_of(seam.loose.positions));
   write_all(stream, seam.borrowed);
   write_all(stream, seam.lent);
@@ -77,7 +77,7 @@ void write_seam(const Seam& seam, std::ostream& stream) {
 Seam read_seam(std::string_view bytes, const std::string& where) {
   Reader reader(bytes, where);
   if (reader.take<std::array<char, 8>>() != kMagic) reader.fail();
-  if (reader.take<std::uint32_t>() != kVersion1) reader.fail();
+  if (reader.take<std::uint32_t>() != kSeamVersion) reader.fail();
   Seam seam;
   seam.own_vertices = reader.take<std::uint32_t>();
   const auto [borrowed, lent, components, loose] = reader.take<std::array<std::uint32_t, 4>>();

@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view kTileSchema = "leafhull-forest-tile/1";
+constexpr std::string_view kTileSchema = "leafhull-forest-tile/2";
 constexpr const char* kStartOver = "--restart starts over; or name another folder.";
 constexpr const char* kGoOn = "--resume goes on, --restart starts over.";
 

@@ -43,6 +43,11 @@ void add_film(const PictureFiles& files, FilePlan& plan) {
 
 }  // namespace
 
+void refuse_buffers(const fs::path& file) {
+  throw Error(ErrorCode::usage, file.string() + " holds what one picture sees, and there are two",
+              "Name a .png file, or leave --beside out.");
+}
+
 fs::path numbered(const fs::path& file, int number) {
   std::string digits = std::to_string(number);
   digits.insert(0, kDigits - std::min(kDigits, digits.size()), '0');
@@ -78,11 +83,7 @@ FilePlan checked_files(const PictureFiles& files, const fs::path& input, std::si
     throw Error(ErrorCode::usage, "no output is named", "Name one, such as -o picture.png.");
   }
   const FilePlan plan = plan_files(files);
-  if (subjects > 1 && !plan.exr.empty()) {
-    throw Error(ErrorCode::usage,
-                plan.exr.front().string() + " holds what one picture sees, and there are two",
-                "Name a .png file, or leave --beside out.");
-  }
+  if (subjects > 1 && !plan.exr.empty()) refuse_buffers(plan.exr.front());
   if (plan.film_was_asked_for && !can_make_films()) {
     throw Error(ErrorCode::output,
                 "cannot write " + plan.films.front().string() + ": ffmpeg is missing",

@@ -25,6 +25,9 @@ FilePlan plan_files(const PictureFiles& files);
 FilePlan checked_files(const PictureFiles& files, const std::filesystem::path& input,
                        std::size_t subjects = 1);
 
+/// @throws Error usage: the buffers of several subjects have no file.
+[[noreturn]] void refuse_buffers(const std::filesystem::path& file);
+
 /// The name of frame `number`, from 1: picture-0001.png for picture.png.
 std::filesystem::path numbered(const std::filesystem::path& file, int number);
 

@@ -133,6 +133,8 @@ Rendering draw_row(Artist& artist, std::span<const Subject> subjects, const Pict
 PictureSummary write_pictures(std::span<const Subject> subjects, const PicturePlan& plan,
                               Device& device, const Progress& progress) {
   const FilePlan& files = plan.files;
+  if (subjects.empty()) throw Error(ErrorCode::usage, "no subject is given to be drawn");
+  if (subjects.size() > 1 && !files.exr.empty()) refuse_buffers(files.exr.front());
   PictureOptions options = plan.picture;
   check_picture(options, &device.info());
   PictureSummary summary;

@@ -25,12 +25,13 @@ int read_rest(int descriptor, const std::function<void(std::string_view)>& take)
 
 void read_file(const std::filesystem::path& file, ErrorCode code,
                const std::function<void(std::string_view)>& take) {
-  const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
-  int reason = errno;
-  if (descriptor >= 0) {
-    reason = read_rest(descriptor, take);
-    ::close(descriptor);
-  }
+  struct Descriptor {
+    const int number;
+    ~Descriptor() {
+      if (number >= 0) ::close(number);
+    }
+  } const opened{::open(file.c_str(), O_RDONLY | O_CLOEXEC)};
+  const int reason = opened.number < 0 ? errno : read_rest(opened.number, take);
   if (reason == 0) return;
   throw Error(code, "cannot read " + file.string() + ": " + std::generic_category().message(reason),
               "Check the disk and the file's permissions.");

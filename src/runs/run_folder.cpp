@@ -21,11 +21,21 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool on_one_file_system(const fs::path& a, const fs::path& b) {
-  struct stat status_a {
-  }, status_b{};
-  return ::stat(a.c_str(), &status_a) == 0 && ::stat(b.c_str(), &status_b) == 0 &&
-         status_a.st_dev == status_b.st_dev;
+/// Whether a file can be renamed from one folder to the other: two mounts of one disk are apart.
+bool on_one_mount(const fs::path& a, const fs::path& b) {
+  constexpr unsigned kWanted = STATX_BASIC_STATS | STATX_MNT_ID;
+  struct statx at_a {
+  }, at_b{};
+  return ::statx(AT_FDCWD, a.c_str(), 0, kWanted, &at_a) == 0 &&
+         ::statx(AT_FDCWD, b.c_str(), 0, kWanted, &at_b) == 0 &&
+         at_a.stx_dev_major == at_b.stx_dev_major && at_a.stx_dev_minor == at_b.stx_dev_minor &&
+         at_a.stx_mnt_id == at_b.stx_mnt_id;  // both 0 where the kernel does not know
+}
+
+/// Without a slash at its end, whose parent would be the folder itself.
+fs::path whole_name(const fs::path& folder) {
+  fs::path name = fs::absolute(folder).lexically_normal();
+  return name.has_filename() ? name : name.parent_path();
 }
 
 void rename(const char* from, const fs::path& to) {
@@ -38,15 +48,19 @@ void RunFolder::make_folder(const fs::path& folder) {
   const std::lock_guard alone(mutex_);
   if (!made_.insert(folder).second) return;
   std::error_code error;
+  fs::path above = whole_name(folder).parent_path();
+  unsynced_.insert(above);
+  for (; above.has_relative_path() && !fs::exists(above, error); above = above.parent_path()) {
+    unsynced_.insert(above.parent_path());
+  }
   fs::create_directories(folder, error);
   if (error) throw write_error(folder, error.value());
-  unsynced_.insert(folder.parent_path());
 }
 
 TemporaryFile RunFolder::filled(const fs::path& file, const Fill& fill) {
   make_folder(file.parent_path());
   make_folder(unfinished_);
-  const bool near = on_one_file_system(unfinished_, file.parent_path());
+  const bool near = on_one_mount(unfinished_, file.parent_path());
   TemporaryFile temporary(near ? unfinished_ / (writer_ + "." + file.filename().string()) : file);
   temporary.copy_permissions(file);
   FileStream stream(temporary.descriptor(), file);
@@ -104,12 +118,17 @@ void RunFolder::link(const fs::path& file, const fs::path& name) {
 }
 
 void RunFolder::sync() {
+  const std::lock_guard one_at_a_time(syncing_);  // whoever comes second finds all of it done
   std::set<fs::path> folders;
   {
     const std::lock_guard alone(mutex_);
-    folders.swap(unsynced_);
+    folders = unsynced_;
   }
-  for (const fs::path& folder : folders) sync_folder(folder);
+  for (const fs::path& folder : folders) {
+    sync_folder(folder);
+    const std::lock_guard alone(mutex_);
+    unsynced_.erase(folder);
+  }
 }
 
 void RunFolder::remove_unfinished() const {

@@ -48,7 +48,8 @@ class RunFolder {
   /// @throws Error output.
   void sync();
 
-  /// Removes what an earlier process of this writer's name has left half-written.
+  /// Removes what an earlier process of this writer's name has left in the folder of unfinished
+  /// files.
   void remove_unfinished() const;
 
  private:
@@ -57,7 +58,7 @@ class RunFolder {
 
   std::filesystem::path unfinished_;
   std::string writer_;
-  std::mutex mutex_;
+  std::mutex mutex_, syncing_;
   std::set<std::filesystem::path> made_, unsynced_;  ///< folders
 };
 

@@ -76,7 +76,11 @@ void SealedLines::append(Json object) {
     }
     done += static_cast<std::size_t>(count);
   }
-  if (::fsync(descriptor_) != 0 && errno != EINVAL) throw write_error(file_, errno);
+  if (::fsync(descriptor_) != 0 && errno != EINVAL) {
+    const int reason = errno;
+    truncate(size_);
+    throw write_error(file_, reason);
+  }
   size_ += static_cast<off_t>(text.size());
   empty_ = false;
 }

@@ -119,7 +119,7 @@ std::span<const ScatterOptionRow> scatter_table() {
       Row("Trees", "scale", std::pair(&ScatterOptions::scale_low, &ScatterOptions::scale_high),
           {0, kWidest}, "range of sizes, drawn evenly",
           {.range = "> 0", .default_value = "0.8:1.2", .value = "LOW:HIGH"}),
-      Row("Ground", "spacing", &ScatterOptions::spacing, {0, kWidest},
+      Row("Ground", "spacing", &ScatterOptions::spacing, {.high = kWidest, .low_open = true},
           "least distance between trees", {.unit = "crown widths", .range = "> 0"}),
       Row("Ground", "area", &ScatterOptions::area, {0, kWidest},
           "sides of the rectangle along x and z, about the origin",

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -10,19 +11,33 @@
 #include "sweep/sweep_plan.h"
 
 namespace leafhull {
+namespace {
+
+/// What every journal of a sweep has in its first line, be it damaged or of another version.
+constexpr std::string_view kAnySchema = "leafhull-sweep-journal/";
+
+bool is_row(const Json& line) {
+  return line.contains("row") && line["row"].is_number_unsigned() && line.contains("picture") &&
+         line["picture"].is_string();
+}
+
+}  // namespace
 
 Journal::Journal(const std::filesystem::path& file) : lines_(file, "another sweep") {
   if (lines_.empty()) return;
   const std::vector<std::string>& lines = lines_.lines();
-  header_ = unsealed(lines.empty() ? "" : lines.front()).value_or(Json::object());
-  if (header_.value("schema", Json()) != kJournalSchema) {
+  const std::string first = lines.empty() ? "" : lines.front();
+  header_ = unsealed(first).value_or(Json::object());
+  is_readable_ = header_.value("schema", Json()) == kJournalSchema;
+  if (!is_readable_ && first.find(kAnySchema) == std::string::npos) {
     throw Error(ErrorCode::usage, file.string() + " is not the journal of a sweep",
                 "Name another folder, or move that file away.");
   }
   for (std::size_t i = 1; i < lines.size(); ++i) {
     std::optional<Json> row = unsealed(lines[i]);
-    if (row && row->contains("row"))
-      rows_.insert_or_assign(row->at("row").get<std::size_t>(), std::move(*row));
+    if (!row || !is_row(*row)) continue;
+    const auto combination = row->at("row").get<std::size_t>();
+    rows_.insert_or_assign(combination, std::move(*row));
   }
 }
 
@@ -32,6 +47,7 @@ void Journal::begin(const Json& header) {
   header_ = Json();
   lines_.append(header);
   header_ = header;
+  is_readable_ = true;
 }
 
 void Journal::append(Json row) {

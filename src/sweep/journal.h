@@ -21,6 +21,8 @@ class Journal {
 
   /// Null in a new journal.
   const Json& header() const { return header_; }
+  /// Whether the header is whole and of this version, or the journal is new.
+  bool is_readable() const { return is_readable_; }
   /// The combinations that are done, by their index `row`.
   const std::map<std::size_t, Json>& rows() const { return rows_; }
 
@@ -32,6 +34,7 @@ class Journal {
  private:
   SealedLines lines_;
   Json header_;
+  bool is_readable_ = true;
   std::map<std::size_t, Json> rows_;
 };
 

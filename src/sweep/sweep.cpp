@@ -226,6 +226,11 @@ SweepSummary run_sweep(const LeafSet& leaves, const SweepPlan& plan, Device& dev
   if (!folder.restart && !fs::exists(files.journal())) check_nothing_is_lost(files, plan);
   Journal journal(files.journal());
   if (folder.restart) remove_results(files, journal);
+  if (!folder.restart && !journal.is_readable()) {
+    throw Error(ErrorCode::usage,
+                files.journal().string() + " is damaged, or of another version of leafhull",
+                "Name another folder, or give --restart to replace that sweep.");
+  }
   if (folder.restart || journal.rows().empty()) journal.begin(header);
   check_same_sweep(journal.header(), header, files.folder());
   files.make_folder(files.pictures());

@@ -11,7 +11,7 @@
 
 namespace leafhull {
 
-inline constexpr std::string_view kJournalSchema = "leafhull-sweep-journal/1";
+inline constexpr std::string_view kJournalSchema = "leafhull-sweep-journal/2";
 
 /// What makes a sweep this one: the leaves, leafhull's version, the device, and the values of every
 /// option over all combinations.

@@ -149,7 +149,7 @@ TEST(RenderOptions, AreCheckedBeforeAnyWork) {
     options.files = {"picture.png"};
     change(options);
     try {
-      picture_of(options, "tree.glb", {});
+      plan_pictures(options, "tree.glb");
     } catch (const Error& error) {
       return error.what();
     }
@@ -166,7 +166,8 @@ TEST(RenderOptions, AreCheckedBeforeAnyWork) {
   RenderOptions options;
   options.files = {"picture.png"};
   options.camera_name = "top";
-  EXPECT_EQ(std::get<Viewpoint>(picture_of(options, "tree.glb", {}).camera), Viewpoint::top);
+  const PicturePlan plan = plan_pictures(options, "tree.glb");
+  EXPECT_EQ(std::get<Viewpoint>(plan.picture.camera), Viewpoint::top);
 }
 
 }  // namespace

@@ -71,7 +71,13 @@ TEST_F(SweepJournal, EveryCutLosesAtMostTheLastLine) {
 
 TEST_F(SweepJournal, ALineThatIsNoRowDoesNotCount) {
   fill(1);
-  write(file, content(file) + std::string(20, '\0') + "\n{\"row\":\"x\"}\n[1]\n");
+  std::string text = content(file) + std::string(20, '\0') + "\n[1]\n";
+  for (const Json& line :
+       {Json{{"row", "x"}, {"picture", "p"}}, Json{{"row", -1}, {"picture", "p"}}, Json{{"row", 5}},
+        Json{{"row", 5}, {"picture", 1}}}) {
+    text += dumped(sealed(line)) + "\n";
+  }
+  write(file, text);
   EXPECT_EQ(Journal(file).rows().size(), 1u);
 }
 
@@ -95,6 +101,21 @@ TEST_F(SweepJournal, BeginsAnew) {
     EXPECT_TRUE(journal.rows().empty());
   }
   EXPECT_TRUE(Journal(file).rows().empty());
+}
+
+TEST_F(SweepJournal, SaysWhoseItIsThoughItIsDamagedOrOfAnotherVersion) {
+  fill(2);
+  std::string damaged = content(file);
+  damaged[damaged.find("version")] = 'w';
+  for (const std::string& text :
+       {damaged, std::string("{\"schema\":\"leafhull-sweep-journal/1\",\"version\":\"1\"}\n")}) {
+    write(file, text);
+    Journal journal(file);
+    EXPECT_FALSE(journal.is_readable()) << text;
+    EXPECT_EQ(content(file), text);
+    journal.begin(header());
+    EXPECT_TRUE(journal.is_readable());
+  }
 }
 
 TEST_F(SweepJournal, AnotherFileIsLeftAlone) {
