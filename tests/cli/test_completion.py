@@ -127,7 +127,7 @@ class Manual(CompletionTest):
     def test_it_tells_what_the_help_tells(self):
         page = self.succeed("help-manual").stdout
         self.assertTrue(page.startswith('.TH LEAFHULL 1 "" "leafhull '))
-        for section in ("NAME", "SYNOPSIS", "DESCRIPTION", "self.verbs()", "EXIT STATUS"):
+        for section in ("NAME", "SYNOPSIS", "DESCRIPTION", "VERBS", "EXIT STATUS"):
             self.assertIn(f"\n.SH {section}\n", page)
         self.assertEqual(re.findall(r"(?m)^\.SS (\S+)$", page), self.verbs())
         plain = page.replace("\\-", "-")
