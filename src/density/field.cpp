@@ -71,11 +71,11 @@ void Field::raise(std::span<const BrickPart> parts, std::span<const Block> block
 /// Copies a grid that at() shares. Call this before altering the grid.
 void Field::own_grid() {
   if (grid_.use_count() == 1) return;
-  const auto own = std::make_shared<Grid>(Grid{grid_->negated->deepCopy(), grid_->bricks});
-  tbb::parallel_for(std::size_t{0}, own->bricks.size(), [&](std::size_t b) {
-    own->bricks[b] = own->negated->tree().probeLeaf(own->bricks[b]->origin());
+  grid_ = std::make_shared<Grid>(*grid_);
+  grid_->negated = grid_->negated->deepCopy();
+  tbb::parallel_for(std::size_t{0}, grid_->bricks.size(), [&](std::size_t b) {
+    grid_->bricks[b] = grid_->negated->tree().probeLeaf(grid_->bricks[b]->origin());
   });
-  grid_ = own;
 }
 
 std::vector<Block> Field::inside() const {

@@ -82,7 +82,7 @@ FilePlan checked_files(const PictureFiles& files, const fs::path& input, std::si
   if (files.files.empty()) {
     throw Error(ErrorCode::usage, "no output is named", "Name one, such as -o picture.png.");
   }
-  const FilePlan plan = plan_files(files);
+  FilePlan plan = plan_files(files);
   if (subjects > 1 && !plan.exr.empty()) refuse_buffers(plan.exr.front());
   if (plan.film_was_asked_for && !can_make_films()) {
     throw Error(ErrorCode::output,
