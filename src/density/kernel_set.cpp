@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "density/kernel_set.h"
 
-#include <openvdb/openvdb.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -50,28 +49,24 @@ void KernelSet::gather(Vec3d low, Vec3d high, std::vector<std::uint32_t>& ranks)
 }
 
 std::vector<Coord> KernelSet::root_blocks(double margin) const {
-  openvdb::MaskTree reached;  // a voxel stands for a root block
-  openvdb::tree::ValueAccessor<openvdb::MaskTree> accessor(reached);
-  const double r = reach_ + margin;
+  const double r = (reach_ + margin) * lattice_.voxel_size;
   const Vec3d grow(r, r, r);
-  openvdb::CoordBBox previous;
-  for (const Box& cell : hash_->occupied()) {
-    const auto root = [&](Vec3d p) {
-      const Coord c = cell_of(lattice_.local(p));
-      return openvdb::Coord::floor(openvdb::Vec3d(c.x, c.y, c.z) / kRootEdge);
-    };
-    const Vec3d half = grow * lattice_.voxel_size;
-    const openvdb::CoordBBox roots(root(cell.low - half), root(cell.high + half));
-    if (roots == previous) continue;
-    previous = roots;
-    for (auto c = roots.begin(); c; ++c) accessor.setValueOn(*c);
-  }
+  const auto root = [&](Vec3d p) { return block_origin(cell_of(lattice_.local(p)), kRootEdge); };
   std::vector<Coord> blocks;
-  for (auto c = reached.cbeginValueOn(); c; ++c) {
-    const openvdb::Coord o = c.getCoord();
-    blocks.push_back({o.x() * kRootEdge, o.y() * kRootEdge, o.z() * kRootEdge});
+  std::pair<Coord, Coord> previous{{1, 1, 1}, {}};  // no root block
+  for (const Box& cell : hash_->occupied()) {
+    const std::pair reached{root(cell.low - grow), root(cell.high + grow)};
+    if (reached == previous) continue;
+    previous = reached;
+    const auto& [low, high] = reached;
+    for (int x = low.x; x <= high.x; x += kRootEdge) {
+      for (int y = low.y; y <= high.y; y += kRootEdge) {
+        for (int z = low.z; z <= high.z; z += kRootEdge) blocks.push_back({x, y, z});
+      }
+    }
   }
   std::sort(blocks.begin(), blocks.end());
+  blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
   return blocks;
 }
 
