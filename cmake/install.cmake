@@ -38,7 +38,7 @@ if(NOT CMAKE_CROSSCOMPILING AND NOT "${CMAKE_CXX_FLAGS} ${CMAKE_CXX_FLAGS_RELWIT
       COMMAND ${CMAKE_COMMAND} -E make_directory ${PROJECT_BINARY_DIR}/printed
       COMMAND leafhull_command ${ARGN} > ${output})
     add_custom_target(print_${file} ALL DEPENDS ${output})
-    install(FILES ${output} DESTINATION ${folder} OPTIONAL)  # not there where but a target was built
+    install(FILES ${output} DESTINATION ${folder} OPTIONAL)  # a build of single targets lacks it
   endfunction()
   leafhull_printed(leafhull.1 ${CMAKE_INSTALL_MANDIR}/man1 help-manual)
   leafhull_printed(leafhull ${CMAKE_INSTALL_DATADIR}/bash-completion/completions completion bash)

@@ -66,8 +66,8 @@ struct ReadingStudy {
   std::vector<Verdict> verdicts;  ///< the same claims in the same order for every reading
 };
 
-/// Where p1 and p2 lie: `low` and `high` are deviations s above the mean m of N_iso, or the percent
-/// of leaf vertices with a lower N_iso. Source: Eqs. (9), (10), which use 0 and 2 s.
+/// The ends p1 and p2 of a band: `low` and `high` are deviations s above the mean m of N_iso, or
+/// the percent of leaf vertices with a lower N_iso. Source: Eqs. (9), (10), which use 0 and 2 s.
 struct Band {
   double low = 0, high = 2;
   bool percent = false;

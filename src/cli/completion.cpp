@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/values.h"
 #include "cli/verb.h"
 
 namespace leafhull::cli {
@@ -47,13 +48,6 @@ std::vector<Verb> visible_verbs() {
   std::vector<Verb> verbs = all_verbs();
   std::erase_if(verbs, [](const Verb& verb) { return verb.hidden; });
   return verbs;
-}
-
-/// In single quotes, of which the shell takes nothing for its own.
-std::string in_quotes(std::string_view text) {
-  std::string quoted = "'";
-  for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + "'";
 }
 
 std::string with_backslashes(std::string_view text, std::string_view special) {
@@ -143,21 +137,21 @@ std::string zsh_flag(const OptionLine& line) {
             : !words.empty()                ? "(" + words + ")"
                                             : " ";
   }
-  return "        " + spec + in_quotes(what) + " \\\n";
+  return "        " + spec + cli::quoted(what) + " \\\n";
 }
 
 std::string zsh_script() {
   std::string verbs, cases;
   for (const Verb& verb : visible_verbs()) {
     const std::string name(verb.name);
-    verbs += "    " + in_quotes(name + ":" + std::string(verb.summary)) + "\n";
+    verbs += "    " + cli::quoted(name + ":" + std::string(verb.summary)) + "\n";
     cases += "    " + name + ")\n      _arguments -s \\\n";
     for (const OptionLine& line : lines_of(verb.flags)) cases += zsh_flag(line);
     const std::string operand =
         verb.operand_words.empty() ? "_files" : "(" + joined(verb.operand_words, " ") + ")";
     cases += "        " +
-             (verb.takes_operand() ? in_quotes((verb.takes_trees ? "*:" : "1:") +
-                                               std::string(verb.operand) + ":" + operand)
+             (verb.takes_operand() ? cli::quoted((verb.takes_trees ? "*:" : "1:") +
+                                                 std::string(verb.operand) + ":" + operand)
                                    : "") +
              "\n      ;;\n";
   }
@@ -191,8 +185,8 @@ std::string fish_flag(const std::string& condition, const OptionLine& line) {
   const std::string words = words_of(line);
   if (!line.value.empty()) text += is_file(line) ? " -r -F" : " -x";
   if (is_folder(line)) text += " -a '(__fish_complete_directories)'";
-  if (!line.value.empty() && !words.empty()) text += " -a " + in_quotes(words);
-  return text + " -d " + in_quotes(line.help) + "\n";
+  if (!line.value.empty() && !words.empty()) text += " -a " + cli::quoted(words);
+  return text + " -d " + cli::quoted(std::string(line.help)) + "\n";
 }
 
 std::string fish_script() {
@@ -203,11 +197,11 @@ std::string fish_script() {
   for (const Verb& verb : visible_verbs()) {
     const std::string name(verb.name), condition = "'__fish_seen_subcommand_from " + name + "'";
     page += "complete -c leafhull -n __fish_use_subcommand -a " + name + " -d " +
-            in_quotes(verb.summary) + "\n";
+            cli::quoted(std::string(verb.summary)) + "\n";
     if (verb.takes_operand()) {
       page += "complete -c leafhull -n " + condition +
               (verb.operand_words.empty() ? " -F"
-                                          : " -a " + in_quotes(joined(verb.operand_words, " "))) +
+                                          : " -a " + cli::quoted(joined(verb.operand_words, " "))) +
               "\n";
     }
     for (const OptionLine& line : lines_of(verb.flags)) page += fish_flag(condition, line);

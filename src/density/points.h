@@ -30,7 +30,7 @@ struct PointBatch {
   std::vector<float> x, y, z;          ///< offsets from the frame's origin, voxels
 };
 
-/// Where a point may be evaluated: at its position, or anywhere in its cell.
+/// The places at which a point may be evaluated: its position alone, or anywhere in its cell.
 enum class Within { point, cell };
 
 /// Finds the kernels near each of `points` (voxels from the anchor) and hands them over, in batches

@@ -19,9 +19,10 @@ class Disk(ForestTest):
         super().setUp()
         self.log = self.folder / "calls"
 
-    def calls_of(self, *arguments):
+    def calls_of(self, *arguments, **options):
         self.log.write_text("")
-        self.succeed(*arguments, env={"LD_PRELOAD": PRELOADED, "DISK_CALLS": str(self.log)})
+        env = {"LD_PRELOAD": PRELOADED, "DISK_CALLS": str(self.log)}
+        self.succeed(*arguments, env=env, **options)
         calls = [line.split("\t") for line in self.log.read_text().splitlines()]
         return [call for call in calls if call[1].startswith(str(self.out))]
 
@@ -69,6 +70,17 @@ class Disk(ForestTest):
         self.assertGreater(tiles, 5)
         self.assertGreater(self.assert_lasts(calls, tiles // 4), 3 * tiles)
         self.assert_lasts(self.calls_of(*flags, "--restart"))
+
+    def test_new_folders_up_to_the_first_that_was_there(self):
+        scene = self.scatter(5)
+        for name in ("one/two/three", "four/"):
+            calls = self.calls_of("forest", scene, *TILED, "-o", name, cwd=self.out)
+            self.assert_lasts(calls)
+            synced = {file for call, file, _ in calls if call == "fsync"}
+            folder = self.out / name
+            while folder != self.out:
+                folder = folder.parent
+                self.assertIn(str(folder), synced, f"{folder} has a new folder in it")
 
     def test_a_forest_of_instances(self):
         flags = ("forest", self.scatter(20), *COARSE, "--merge", "none", "-o", self.out)

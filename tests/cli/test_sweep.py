@@ -254,6 +254,19 @@ class Resuming(SweepTest):
         self.refuse(["--flatness"], "--threshold", "1,2", "--flatness", "0.5", *COARSE)
         self.refuse(["tree"], "--threshold", "1,2", *COARSE, tree=ASH)
 
+    def test_a_sweep_whose_journal_is_damaged_is_refused_and_can_be_replaced(self):
+        flags = ("--threshold", "1,2", *COARSE)
+        self.run_sweep(*flags)
+        journal = self.sweep / "sweep.jsonl"
+        whole = journal.read_bytes()
+        old = b'{"schema":"leafhull-sweep-journal/1","version":"0.1.0"}\n{"row":0,"picture":"p"}\n'
+        for damaged in (whole.replace(b"version", b"wersion", 1), old):
+            journal.write_bytes(damaged)
+            self.refuse(["sweep.jsonl", "damaged", "--restart"], *flags)
+            self.assertEqual(journal.read_bytes(), damaged)
+        self.run_sweep(*flags, "--restart")
+        self.assertEqual(len(self.table()), 2)
+
     def test_restart_replaces_it_and_nothing_else(self):
         self.run_sweep("--radius-max", "1,2", *COARSE)
         (self.sweep / "pictures" / "mine.png").write_text("mine")

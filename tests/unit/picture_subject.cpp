@@ -135,6 +135,21 @@ TEST(Drawing, TellsHowFarItIs) {
   EXPECT_EQ(told.back(), std::pair(std::string("write"), 1.0));
 }
 
+TEST(Drawing, RefusesNoSubjectAndTheBuffersOfTwo) {
+  const Subject subject = shape_subject(cube());
+  const std::vector<Subject> two{subject, subject};
+  const TemporaryFolder folder;
+  const auto write = [&](std::span<const Subject> subjects, const char* name) {
+    write_pictures(subjects, {facing_the_cube(16, 16), plan_files({{folder / name}, 0}), {}},
+                   device());
+  };
+  EXPECT_THROW(write({}, "a.png"), Error);
+  EXPECT_THROW(write(two, "a.exr"), Error);
+  EXPECT_TRUE(folder.names().empty());
+  write(two, "a.png");
+  EXPECT_FALSE(folder.names().empty());
+}
+
 TEST(Strokes, AreLeavesInPixels) {
   Subject::Parts parts;  // a scene that is the model's space
   parts.leaves = {{{0, 0, 0}, {1, 0, 0}, {0, 0.5f, 0}, 7},
