@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the device can do at most, and with --pairs what the engine makes of it, stage by stage.
+// The device's peak rates and, with --pairs, what the engine reaches in each stage.
 #include <algorithm>
 #include <cmath>
 #include <iostream>
@@ -65,7 +65,7 @@ double fma_gflops(Device::Engine& engine) {
   }
 }
 
-/// STREAM's way of counting: two arrays read, one written.
+/// The triad's rate as STREAM counts it: two arrays read, one written.
 double triad_gigabytes(Device::Engine& engine) {
   constexpr std::size_t kBytes = std::size_t{128} << 20;
   std::vector<cl::Buffer> arrays;

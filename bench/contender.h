@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the contenders of ./dev bench share: the case, the clock, and the talk with the driver.
+// What the contenders of ./dev bench share: the case, the clock and the driver's protocol.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -55,7 +55,7 @@ double seconds_of(Work&& work) {
 
 struct Contender {
   std::string name, version;
-  int threads = 1;              ///< that it may use; 0: all cores
+  int threads = 1;              ///< the most threads to use; 0: all cores
   Json setup = Json::object();  ///< seconds of preparation that no run repeats, by what was done
   /// One whole run from the points in memory: {"field", "mesh", "total": seconds, "vertices",
   /// "faces", ...}.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pictures of a tree, from its leaves in memory to the picture in memory, warm; and once more of
-// what is ready to be seen, as the next frame of a film.
+// Times pictures of a tree, from its leaves in memory to the picture in memory, warm; then once
+// more with the subject ready, as for the next frame of a film.
 #include <map>
 #include <memory>
 #include <numeric>

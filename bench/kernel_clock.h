@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Seconds that OpenCL kernels take on the device. This file's clEnqueueNDRangeKernel stands before
-// the loader's, so every launch of the process is timed, whoever makes it.
+// Seconds that OpenCL kernels take on the device. This file's clEnqueueNDRangeKernel overrides the
+// loader's, so every launch of the process is timed, whoever makes it.
 #pragma once
 
 #include <map>

@@ -14,7 +14,7 @@ namespace leafhull::bench {
 /// A tree file, or a synthetic crown where `tree` is synthetic:COUNT.
 TreeModel load_tree(const std::string& tree);
 
-/// Its leaves.
+/// The leaves of that tree.
 LeafSet load_leaves(const std::string& tree);
 
 /// The case's radius, voxel size and threshold, resolved.

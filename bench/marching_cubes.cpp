@@ -38,7 +38,7 @@ Case triangles_of(int inside) {
     const std::array<int, 4> corner = corners_of_face(face / 2, face % 2 != 0);
     for (int i = 0; i < 4; ++i) {
       if (!is_inside(corner[i]) || is_inside(corner[(i + 1) % 4])) continue;
-      int first = i;  // of the run of corners inside that ends at i
+      int first = i;  // the start of the run of corners inside that ends at i
       while (is_inside(corner[(first + 3) % 4])) first = (first + 3) % 4;
       next[edge_between(corner[(first + 3) % 4], corner[first])] =
           edge_between(corner[i], corner[(i + 1) % 4]);

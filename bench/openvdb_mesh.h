@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the contenders made of OpenVDB share.
+// Code that the contenders made of OpenVDB share.
 #pragma once
 
 #include <openvdb/openvdb.h>

@@ -108,7 +108,7 @@ std::vector<double> interpolated_at_leaves(const Grid& grid, std::span<const Lea
 std::vector<DensityFunction> controlled(std::span<const Leaf> leaves,
                                         std::span<const double> isotropic_density,
                                         const Parameters& parameters) {
-  constexpr double kSmallestRadius = 1e-3;  // of R_max
+  constexpr double kSmallestRadius = 1e-3;  // in units of R_max
   const auto count = static_cast<double>(leaves.size());
   double mean = 0, variance = 0;
   for (const double n : isotropic_density) mean += n / count;

@@ -23,7 +23,7 @@ constexpr Vec3d kProportions{0.75, 1, 0.75};  // half-axes of the crown over hal
 /// Numbers that do not depend on the standard library.
 class Random {
  public:
-  /// In [0, 1).
+  /// A number in [0, 1).
   double unit() { return static_cast<double>(engine_() >> 11) * 0x1p-53; }
 
   Vec3d direction() {
@@ -32,7 +32,7 @@ class Random {
     return {r * std::cos(angle), r * std::sin(angle), z};
   }
 
-  /// In the unit ball.
+  /// A point in the unit ball.
   Vec3d in_ball() { return direction() * std::cbrt(unit()); }
 
  private:

@@ -8,7 +8,7 @@
 namespace leafhull::bench {
 
 /// A crown of `leaf_vertices` / 4 quads of one size, scattered along twigs inside an ellipsoid
-/// whose volume grows with their number, so that its mean density does not. The same on every
+/// whose volume grows with their number, so that its mean density does not. It is the same on every
 /// machine.
 /// @throws Error usage where `leaf_vertices` is not a multiple of four.
 TreeModel synthetic_crown(std::size_t leaf_vertices);

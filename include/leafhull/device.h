@@ -59,7 +59,7 @@ class Device {
   /// Whether its work and TBB's together keep to that bound.
   bool may_overlap() const;
 
-  /// The device room's own side of it.
+  /// The OpenCL engine behind it, which src/device defines.
   struct Engine;
   Engine& engine() { return *engine_; }
 

@@ -22,28 +22,28 @@ namespace leafhull {
 class Ranks;
 
 enum class Merge { none, canopy };         ///< each model once with instances, or one surface
-enum class ControlScope { model, scene };  ///< over what m and s are taken
+enum class ControlScope { model, scene };  ///< what m and s are taken over
 
 std::span<const std::string_view> names(Merge);
 std::span<const std::string_view> names(ControlScope);
 
-/// Part `part` of `parts` of a forest's tiles, 1 to `parts`.
+/// Part `part`, 1 to `parts`, of a forest's tiles.
 struct TileRange {
   int part = 1, parts = 1;
 };
 
 struct ForestOptions {
-  Options shape;  ///< as of an extraction; a resolution counts along the largest tree
+  Options shape;  ///< as for an extraction; a resolution counts along the largest tree
   Merge merge = Merge::canopy;
   ControlScope control_scope = ControlScope::model;
-  int levels = 1;                               ///< of abstraction
-  ByteCount memory = {std::uint64_t{4} << 30};  ///< that a rank may hold
+  int levels = 1;                               ///< levels of abstraction
+  ByteCount memory = {std::uint64_t{4} << 30};  ///< the most that a rank may hold
   std::optional<int> tile;                      ///< voxels along a tile's edge; empty: 128, or less
                                                 ///< where the memory asks for it
-  std::optional<TileRange> range;               ///< only these tiles, nothing after them
-  bool finish = false;                          ///< only what follows when every tile is there
-  bool resume = false;   ///< goes on with what an earlier run has left in the folder
-  bool restart = false;  ///< removes what an earlier run has left there
+  std::optional<TileRange> range;               ///< only computes these tiles
+  bool finish = false;                          ///< only does what follows once all tiles are there
+  bool resume = false;   ///< continues what an earlier run left in the folder
+  bool restart = false;  ///< removes what an earlier run left there
   /// .glb or .ply, relative to the folder: all tiles of level 0, welded.
   std::optional<std::filesystem::path> single;
 };
@@ -58,11 +58,11 @@ using ForestOptionRow =
 /// The options of a forest beside those of its trees' shape.
 std::span<const ForestOptionRow> forest_table();
 
-/// Looks at the options before any work is done, those of the shape too.
+/// Checks the options, the shape's too, before any work is done.
 /// @throws Error usage: a value out of range, or two options that contradict each other.
 void check_forest(const ForestOptions& options);
 
-/// Where a run is.
+/// How far a run has come.
 struct ForestProgress {
   std::string_view stage;
   std::size_t tiles_done = 0, tiles = 0;
@@ -71,18 +71,18 @@ struct ForestProgress {
 };
 using ForestProgressVisitor = std::function<void(const ForestProgress&)>;
 
-/// A tile that is done.
+/// A finished tile.
 struct TileRow {
   int level = 0, x = 0, y = 0, z = 0;  ///< as in tiles/LEVEL/X_Y_Z.glb
   std::uint64_t leaf_vertices = 0;     ///< in the tile
   std::uint64_t gathered = 0;          ///< kernels that reach it
   std::uint64_t evaluated_voxels = 0, vertices = 0, triangles = 0;
   double seconds = 0;
-  std::uint64_t resident_bytes = 0;  ///< of its process, once it was computed
-  int rank = 0;                      ///< of the run that has computed it
+  std::uint64_t resident_bytes = 0;  ///< of the tile's process, once it was computed
+  int rank = 0;                      ///< the rank that computed it
 };
 
-/// A level of abstraction as it came out.
+/// The outcome of a level of abstraction.
 struct LevelRow {
   int level = 0;
   double voxel_size = 0;  ///< h
@@ -100,9 +100,9 @@ struct ForestSummary {
   std::uint64_t peak_memory_bytes = 0;  ///< of the largest rank
   std::vector<StageTime> seconds;
   std::vector<LevelRow> levels;
-  /// Of all tiles that are done, by earlier runs and other ranges too; none where `was_finished`.
+  /// All tiles done so far, by earlier runs and other ranges too; none where `was_finished`.
   std::vector<TileRow> rows;
-  bool was_finished = false;  ///< by an earlier run: nothing was to do
+  bool was_finished = false;  ///< by an earlier run; nothing was left to do
   std::vector<std::string> warnings;
 };
 

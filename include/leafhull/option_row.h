@@ -14,8 +14,8 @@
 
 #include "leafhull/vec.h"
 
-// A row tells all about one option: the member of the struct that holds it, its numbers and its
-// words. Flags, help, checks, reports, the tables of the documentation, the manual and the shells'
+// A row says everything about one option: the member of the struct that holds it, its numbers and
+// its words. Flags, help, checks, reports, the tables of the documentation, the manual and shell
 // completion follow from rows.
 
 namespace leafhull {
@@ -28,7 +28,7 @@ struct ByteCount {
 /// The largest number of an option that has no bound of its own: the density kernels take floats.
 inline constexpr double kLargestNumber = std::numeric_limits<float>::max();
 
-/// The numbers that an option may be.
+/// The numbers that an option allows.
 struct Interval {
   double low = 0, high = 0;
   bool low_open = false;   ///< the lower bound itself is excluded
@@ -38,17 +38,17 @@ struct Interval {
 inline constexpr Interval kPositive{.high = kLargestNumber, .low_open = true};
 inline constexpr Interval kAnyNumber{-kLargestNumber, kLargestNumber};
 
-/// What a row says beside its name and its help. What is empty follows from the member.
+/// What a row says beyond its name and its help. What is empty follows from the member.
 struct OptionFacts {
   std::string_view unit = "";
   std::string_view range = "";          ///< in words, where numbers or names do not tell it
   std::string_view default_value = "";  ///< in words, e.g. "by style"
-  /// The option that takes X where this one's text is X%; empty where % says nothing.
+  /// The option that takes X where this one is given as X%; empty where % says nothing.
   std::string_view percent = "";
   std::string_view value = "";  ///< what the help calls the value, e.g. "FILE"
   std::string_view word = "";   ///< what may follow a flag that takes no other value
-  char letter = 0;              ///< of the short flag
-  std::span<const std::string_view> choices = {};  ///< of a text
+  char letter = 0;              ///< the short flag's
+  std::span<const std::string_view> choices = {};  ///< the values that a text may have
 };
 
 /// An option as its users see it.
@@ -56,7 +56,7 @@ struct OptionLine : Interval {
   OptionLine(std::string_view group, std::string_view name, const Interval& numbers,
              std::string_view help, const OptionFacts& facts);
 
-  /// As in the flag --name and, with underscores, in the report.
+  /// The name, as in the flag --name and, with underscores, in the report.
   std::string_view name;
   std::string spelling;       ///< "-o,--output"; --no-snap of `snap`, which is on without it
   std::string value;          ///< what the help calls the value; empty: the flag takes none
@@ -67,18 +67,18 @@ struct OptionLine : Interval {
   std::string default_value;  ///< in words, e.g. "by style"
   std::string_view help;
   std::string_view percent;                   ///< as in OptionFacts
-  std::span<const std::string_view> choices;  ///< the names that its values have, if they have
+  std::span<const std::string_view> choices;  ///< the names that its values have, if any
   bool repeatable = false;
 };
 
-/// Whether `X%` is a value of the row: of another option, or X / 100 of a fraction.
+/// Whether the row takes `X%`: as X for another option, or as the fraction X / 100.
 inline bool takes_percent(const OptionLine& line) {
   return !line.percent.empty() || line.unit == "fraction";
 }
 
-// describe() completes a line by what the type of a value tells, and its value in a new struct.
-// check_value() throws Error usage where a value is out of the line's range. A type that a row
-// holds has both, beside its declaration.
+// describe() completes a line from the value's type and its default in a new struct. check_value()
+// throws Error usage where a value is outside the line's range. A type that a row holds has both,
+// beside its declaration.
 
 void describe(OptionLine& line, bool value);
 void describe(OptionLine& line, int value);
@@ -98,7 +98,7 @@ void describe(OptionLine& line, Enum value) {
   describe_names(line, names(value), static_cast<std::size_t>(value));
 }
 
-/// What is empty by default has a default in words, or none.
+/// An option that is empty by default has a default in words, or none.
 template <class Value>
 void describe(OptionLine& line, const std::optional<Value>&) {
   if (line.default_value.empty()) line.default_value = "none";
@@ -129,8 +129,8 @@ void check_value(const OptionLine& line, const std::optional<Value>& value) {
 }
 
 /// A row of the options that `Struct` holds. Each of `Members` is a pointer to a member, or a way
-/// to a value that is no single member: of that the row's facts tell all, and the struct's owner
-/// checks it.
+/// to a value that is no single member; the row's facts then say everything, and the struct's owner
+/// checks the value.
 template <class Struct, class... Members>
 struct RowOf : OptionLine {
   using Member = std::variant<Members...>;
@@ -156,7 +156,7 @@ struct RowOf : OptionLine {
 template <class Struct, class... Values>
 using RowOver = RowOf<Struct, Values Struct::*...>;
 
-/// Holds every member against its row.
+/// Checks every member against its row.
 /// @throws Error usage: one is out of range.
 template <class Struct, class... Members>
 void check_rows(std::span<const RowOf<Struct, Members...>> rows, const Struct& options) {

@@ -26,8 +26,8 @@ enum class Hollows { fill, keep };
 enum class Mesher { vdb, bricks };
 enum class Preset { paper_32, paper_64, paper_128, draft, standard, fine, ultra, film };
 
-/// Every choice of an extraction. What is empty is set by the style or follows from another option:
-/// `resolve` fills it in. Ranges, units and defaults stand in `option_table()`.
+/// Every choice of an extraction. What is empty is set by the style or follows from another option;
+/// `resolve` fills it in. `option_table()` holds ranges, units and defaults.
 struct Options {
   // Input
   std::optional<Up> up;        ///< empty: as the file says, else y
@@ -36,7 +36,7 @@ struct Options {
   // Leaves
   std::vector<std::string> leaves, not_leaves;
   std::optional<LeafColour> leaves_colour;
-  std::optional<Srgb> leaf_colour;  ///< what leaves are drawn in
+  std::optional<Srgb> leaf_colour;  ///< the colour that leaves are drawn in
   std::optional<TextureEllipse> ellipse;
   double leaf_scale = 1;
 
@@ -68,7 +68,7 @@ struct Options {
   bool dense = false;
   bool snap = true;
   Mesher mesher = Mesher::vdb;
-  double adaptivity = 0;  ///< of Mesher::vdb alone
+  double adaptivity = 0;  ///< only for Mesher::vdb
 
   ReadOptions read_options() const { return {up, allow_outside}; }
   LeafOptions leaf_options() const {
@@ -96,10 +96,10 @@ std::string_view name(Enum value) {
 /// Voxels along the longest side.
 int resolution_of(Preset preset);
 
-/// `options` with the style's values where nothing was asked for, everything checked. Afterwards
-/// `method`, `radius_max`, `flatness`, `points`, `point_spacing`, `min_component` and `hollows` are
-/// set, but R_max where a dilation is, exactly one of the three thresholds and the erosion is, of a
-/// band's end as a deviation or a percentage one, and `resolution` or `voxel_size` is.
+/// `options`, checked, with the style's values where nothing was asked for. Afterwards `method`,
+/// `flatness`, `points`, `point_spacing`, `min_component`, `hollows` and, unless a dilation is,
+/// `radius_max` are set; so are exactly one of the three thresholds and the erosion, a deviation or
+/// a percentage for each end of a band, and `resolution` or `voxel_size`.
 /// @throws Error usage: a value out of range, or two options that contradict each other.
 Options resolve(Options options);
 
@@ -123,7 +123,7 @@ using OptionRow =
 
 std::span<const OptionRow> option_table();
 
-/// The row of that name, which the table has.
+/// The row of that name, which must be in the table.
 const OptionRow& option_row(std::string_view name);
 
 }  // namespace leafhull

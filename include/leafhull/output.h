@@ -50,20 +50,20 @@ class OutputPlan {
 ///         output: a folder that does not exist or cannot be written to.
 OutputPlan plan_outputs(OutputFiles files, const std::filesystem::path& input);
 
-/// Looks at a folder for results before any work is done. It need not exist.
+/// Checks a folder for results before any work is done. It need not exist.
 /// @throws Error output: it could not be made or written to.
 void check_output_folder(const std::filesystem::path& folder);
 
-/// A line where files of floats, .stl and the kernels, lose some of the form of a shape that lies
-/// far from the origin.
+/// A warning where files of floats, .stl and the kernels, lose detail of a shape that lies far from
+/// the origin.
 std::vector<std::string> rounding_warnings(const OutputPlan& plan, const Shape& shape);
 
 /// Writes everything under temporary names, then renames: all files or none. A report's seconds
-/// gain `write`, what the other files took.
+/// gain `write`, the time that the other files took.
 /// @throws Error output: which file and why.
 void write_outputs(const OutputPlan& plan, const Shape& shape, const RunDescription& run);
 
-/// As plan_outputs, for a file that `write_file` is to write.
+/// As plan_outputs, for a single file that `write_file` will write.
 void check_output(const std::filesystem::path& file, std::string_view extension,
                   const std::filesystem::path& input);
 

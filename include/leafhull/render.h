@@ -41,7 +41,7 @@ std::span<const std::string_view> names(Viewpoint);
 struct View {
   Vec3d eye, target;
   Vec3d up{0, 1, 0};
-  double angle = 25;  ///< of view from the picture's bottom to its top, degrees, [0.1, 170]
+  double angle = 25;  ///< field of view, the picture's bottom to its top, degrees, [0.1, 170]
 };
 
 /// Reads a camera: a .json object with `eye`, `target` and perhaps `up` and `angle`, as in View, or
@@ -49,13 +49,13 @@ struct View {
 /// @throws Error input: the file, the key in it and what is wrong.
 View read_view(const std::filesystem::path& file, const ReadOptions& options = {});
 
-/// How a watercolour is painted; only leafhull's own painter looks inside.
+/// How to paint a watercolour; only leafhull's own painter looks inside.
 using WatercolourStyle = std::shared_ptr<const watercolour::Style>;
 
 /// The styles that leafhull brings, the default first.
 std::span<const std::string_view> watercolour_styles();
 
-/// A style by its name or from a .json file; `detail`, 0..1, in place of its own where given.
+/// A style by its name or from a .json file; `detail`, 0..1, replaces its own where given.
 /// @throws Error usage: no such name, or a key of the file that is wrong; input: the file cannot be
 /// read.
 WatercolourStyle read_watercolour_style(const std::string& name_or_file,
@@ -64,15 +64,15 @@ WatercolourStyle read_watercolour_style(const std::string& name_or_file,
 /// The keys of a style file as a Markdown table: name, range, the default style's value, meaning.
 std::string watercolour_style_table();
 
-/// What pictures are taken of, ready to be seen from any side: foliage, and perhaps wood.
+/// What pictures show, ready to be seen from any side: foliage, and perhaps wood.
 class Subject {
  public:
   struct Parts;
   explicit Subject(std::shared_ptr<const Parts> parts) : parts_(std::move(parts)) {}
 
-  /// What its extraction did, as far as it went; of a tree alone.
+  /// The report of its extraction, as far as pictures needed one; only for a tree's shape.
   const Report& report() const;
-  /// The render room's side of it.
+  /// The part that only src/picture uses.
   const Parts& parts() const { return *parts_; }
 
  private:
@@ -87,9 +87,9 @@ Subject tree_subject(std::shared_ptr<const TreeModel> tree, const LeafSet& leave
                      const Options& options, Surfacing surfacing, Device& device,
                      const Progress& progress = {}, const Frame& frame = {});
 
-/// A tree as its file draws it, wood and leaves with their textures. It has looks of its own, but
-/// for watercolour, which is Phong shading instead.
-/// @param choice that of the leaves of `like`.
+/// A tree as its file draws it, wood and leaves with their textures. Looks apply as elsewhere,
+/// except that watercolour becomes Phong shading.
+/// @param choice the choice of the leaves of `like`.
 /// @param like the abstract shape of the tree: pictures of both are taken from the same place.
 Subject drawn_subject(const std::shared_ptr<const TreeModel>& tree, const LeafChoice& choice,
                       const Subject& like);
@@ -113,8 +113,8 @@ struct PictureOptions {
   Look look = Look::phong;
   int width = 1024, height = 1024;  ///< pixels, 1 to kLargestSide each
   std::variant<Viewpoint, View> camera = Viewpoint::three_quarter;
-  double turn = 0;              ///< of the camera about the subject, in whole turns
-  bool turntable = false;       ///< a named viewpoint holds the subject at every turn
+  double turn = 0;              ///< turns the camera about the subject, in whole turns
+  bool turntable = false;       ///< the named viewpoint fits the subject at every turn
   WatercolourStyle style = {};  ///< none: the default one
 };
 
@@ -137,37 +137,37 @@ Rendering draw(const Subject& subject, const PictureOptions& options, Device& de
 /// foliage, wood.
 std::vector<std::uint8_t> encode_exr(const Rendering& rendering);
 
-/// What was written.
+/// The files and times of a run of pictures.
 struct PictureSummary {
-  std::vector<std::filesystem::path> files;  ///< of frames the first
+  std::vector<std::filesystem::path> files;  ///< of a film's frames, only the first
   std::size_t blank = 0;                     ///< pictures with nothing in view
   std::vector<StageTime> seconds;            ///< in order, the total last
   std::vector<std::string> warnings;
 };
 
-/// Whose values the rows of a plate have: leafhull's styles of leaf area, or the paper's.
+/// Whose values a plate's rows use: leafhull's styles of leaf area, or the paper's.
 enum class Plate { own, paper };
 
 /// The plate of the paper's Figure 17: thin, fat and the previous method, in Phong shading and in
-/// watercolour. Each row sets the style, over which what else is in `options` wins, and the method;
-/// `look` and `turn` do not count.
+/// watercolour. Each row sets the method and the style, whose values the rest of `options`
+/// overrides; `look` and `turn` do not count.
 /// @throws Error as extract and draw do.
 Picture figure17(const std::shared_ptr<const TreeModel>& tree, const LeafSet& leaves,
                  const Options& options, Plate plate, Surfacing surfacing,
                  const PictureOptions& picture, Device& device, const Progress& progress = {});
 
-/// What a file is drawn as.
+/// How a file is drawn.
 enum class Drawn { tree, shape };
 
 std::span<const std::string_view> names(Drawn);
 
 /// What `leafhull render` asks for, as it is typed.
 struct RenderOptions : PictureOptions {
-  std::vector<std::filesystem::path> files;   ///< .png and .exr; of a turntable .mp4 and .webp too
-  std::optional<int> frames;                  ///< of a turntable; empty: one picture
+  std::vector<std::filesystem::path> files;   ///< .png and .exr; for a turntable .mp4 and .webp too
+  std::optional<int> frames;                  ///< of a turntable; empty: one picture is drawn
   std::string camera_name = "three-quarter";  ///< a viewpoint, or the file of a View
   std::optional<Surfacing> surfacing;         ///< empty: a mesh of a shape, else direct
-  std::string style_name;                     ///< of a watercolour, or its file; empty: the first
+  std::string style_name;                     ///< a watercolour style or its file; empty: the first
   std::optional<double> detail;               ///< in place of the style's own
   std::optional<Drawn> drawn_as;              ///< empty: by the names in the file
   bool beside = false;                        ///< the tree itself to the left of its shape
@@ -193,10 +193,10 @@ bool is_field(const std::filesystem::path& subject);
 
 /// The file names of pictures, by format.
 struct FilePlan {
-  std::vector<std::filesystem::path> png, exr;  ///< of a turntable without numbers
+  std::vector<std::filesystem::path> png, exr;  ///< of a turntable, without frame numbers
   std::vector<std::filesystem::path> films;
-  int frames = 0;                   ///< of a turntable; 0: one picture
-  bool film_was_asked_for = false;  ///< by name; otherwise films come along with the frames
+  int frames = 0;                   ///< of a turntable; 0: one picture is drawn
+  bool film_was_asked_for = false;  ///< by its name; otherwise films come along with the frames
   bool film_is_missing = false;     ///< a film would come along, but there is no ffmpeg
 };
 

@@ -21,14 +21,14 @@ namespace leafhull {
 
 /// A tree model that a scene places.
 struct SceneModel {
-  std::string name;            ///< as messages and outputs call it; no two are the same
-  std::filesystem::path file;  ///< of a scatter file: a tree
-  ReadOptions reading;         ///< of that
-  std::string mesh;            ///< of a glTF scene: its mesh
-  /// Of a glTF scene: the meshes of its models, which share them and their images. Else empty.
+  std::string name;            ///< its unique name in messages and outputs
+  std::filesystem::path file;  ///< for a scatter file: the tree file
+  ReadOptions reading;         ///< how `file` is read
+  std::string mesh;            ///< for a glTF scene: its mesh
+  /// For a glTF scene: the meshes of its models, which share them and their images. Else empty.
   std::shared_ptr<const TreeModel> meshes;
   std::vector<Instance> instances;           ///< of `meshes`: the mesh's leaves, at the origin
-  std::shared_ptr<const LeafChoice> choice;  ///< of the triangles and materials of `meshes`
+  std::shared_ptr<const LeafChoice> choice;  ///< for the triangles and materials of `meshes`
 };
 
 /// A tree in the scene: x' = linear x + position.
@@ -60,31 +60,31 @@ struct Scene {
 Scene read_scene(const std::filesystem::path& path, const LeafOptions& leaves,
                  const ReadOptions& reading = {});
 
-/// The leaves of one of its models. @throws Error as read_tree and find_leaves do.
+/// The leaves of a scene's model. @throws Error as read_tree and find_leaves do.
 LeafSet read_model(const SceneModel& model, const LeafOptions& leaves);
 
 /// Heights over the ground: a grey picture of one or two bytes per pixel.
 struct HeightMap {
   std::filesystem::path picture;  ///< PNG, seen from above: +x to the right, +z down
-  double height = 10;             ///< of white above black, scene units
+  double height = 10;             ///< from black to white, scene units
 };
 
 struct ScatterOptions {
-  std::vector<std::filesystem::path> trees;  ///< equally often; one named twice twice as often
-  LeafOptions leaves;                        ///< of the trees
-  ReadOptions reading;                       ///< of their files
-  std::size_t count = 0;                     ///< at least 1
+  std::vector<std::filesystem::path> trees;  ///< equally often; one named twice, twice as often
+  LeafOptions leaves;                        ///< how the trees' leaves are found
+  ReadOptions reading;                       ///< how their files are read
+  std::size_t count = 0;                     ///< trees to place, at least 1
   std::uint64_t seed = 1;                    ///< up to 2^31 - 1
   /// Sides of the rectangle along x and z, centred on the origin; empty: as wide as `spacing` asks.
   std::optional<Vec2d> area;
-  /// Where `area` is empty, the square root of the area for a tree, in widths of the mean crown at
+  /// Where `area` is empty: the square root of the area per tree, in widths of the mean crown at
   /// the mean scale. The nearest neighbour is a little nearer.
   double spacing = 0.8;
-  double scale_low = 0.8, scale_high = 1.2;  ///< evenly between; > 0
+  double scale_low = 0.8, scale_high = 1.2;  ///< drawn evenly between; > 0
   std::optional<HeightMap> ground;           ///< over the whole rectangle; empty: y = 0
 };
 
-/// Ends of a range, and members of the height map, are no members of the options themselves.
+/// Ends of a range, and the height map's members, are no direct members of the options.
 using ScatterOptionRow =
     RowOf<ScatterOptions, std::size_t ScatterOptions::*, double ScatterOptions::*,
           std::optional<Vec2d> ScatterOptions::*,
@@ -92,11 +92,11 @@ using ScatterOptionRow =
           std::pair<std::optional<HeightMap> ScatterOptions::*, std::filesystem::path HeightMap::*>,
           std::pair<std::optional<HeightMap> ScatterOptions::*, double HeightMap::*>>;
 
-/// The options of a scatter beside its trees and what is read of them.
+/// The options of a scatter, without its trees and how they are read.
 std::span<const ScatterOptionRow> scatter_table();
 
-/// A scatter file with trees at the points of a Poisson-disk pattern: no two are closer than about
-/// 0.78 sqrt(area / count). Yaws are even. The same options give the same bytes.
+/// Writes a scatter file with trees at the points of a Poisson-disk pattern: no two are closer than
+/// about 0.78 sqrt(area / count). Yaws are even. The same options give the same bytes.
 /// @throws Error usage: a value out of range; input: a tree or the height map cannot be read;
 ///         output: the file cannot be written.
 void write_scatter(const ScatterOptions& options, const std::filesystem::path& file);

@@ -18,11 +18,11 @@
 
 namespace leafhull::cli {
 
-/// What a command line asks for.
+/// What a command line has asked for.
 struct Arguments {
   std::vector<std::string> command;          ///< the words as typed
-  std::filesystem::path operand;             ///< of a verb that takes one: a tree, a scene, a shell
-  std::vector<std::filesystem::path> trees;  ///< of a verb that takes several
+  std::filesystem::path operand;             ///< a verb's only operand: a tree, a scene, a shell
+  std::vector<std::filesystem::path> trees;  ///< the operands of a verb that takes several
   std::set<std::string_view> given;          ///< names of typed options, as their rows have them
 
   Options options;
@@ -32,7 +32,7 @@ struct Arguments {
   RenderOptions render;
   ForestOptions forest;
   ScatterOptions scatter;
-  std::vector<SweptOption> swept;  ///< more than one value each
+  std::vector<SweptOption> swept;  ///< options with more than one value
   bool yes = false, restart = false;
 
   DeviceOptions device;
@@ -40,7 +40,7 @@ struct Arguments {
   bool json = false;
 };
 
-/// A row of what only the command knows.
+/// A row of an option that only the command has.
 using ArgumentRow = RowOver<Arguments, bool, std::filesystem::path>;
 
 }  // namespace leafhull::cli

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Scripts by which shells complete the command, made of the verbs' flags.
+// Shell completion scripts, made from the verbs' flags.
 #include <algorithm>
 #include <iostream>
 #include <map>
@@ -17,7 +17,7 @@ constexpr std::string_view kShells[] = {"bash", "zsh", "fish"};
 bool is_file(const OptionLine& line) { return line.value.ends_with("FILE"); }
 bool is_folder(const OptionLine& line) { return line.value == "FOLDER" || line.value == "DIR"; }
 
-/// What may follow a flag, as words with a space between them; empty where names do not tell.
+/// The words that may follow a flag, with a space between them; empty where names do not tell.
 std::string words_of(const OptionLine& line) {
   return line.word.empty() ? joined(line.choices, " ") : std::string(line.word);
 }
@@ -29,7 +29,7 @@ std::vector<std::string> names_of(const OptionLine& line) {
   return {line.spelling.substr(0, comma), line.spelling.substr(comma + 1)};
 }
 
-/// The flags that are in tables.
+/// The lines of the flags that tables list.
 std::vector<OptionLine> lines_of(const std::vector<Flag>& flags) {
   std::vector<OptionLine> lines;
   for (const Flag& flag : flags) {
@@ -59,7 +59,7 @@ std::string with_backslashes(std::string_view text, std::string_view special) {
   return escaped;
 }
 
-/// What follows a flag with a value, or a word.
+/// The bash words that follow a flag: its value or a word.
 std::string bash_after(const OptionLine& line) {
   if (line.value.empty()) return "next+=' " + words_of(line) + "'";
   return "next='" + words_of(line) + "' places=" +

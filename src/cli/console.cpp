@@ -22,7 +22,7 @@ constexpr std::chrono::milliseconds kRedraw{50};
 std::atomic<bool> shown = false;
 static_assert(std::atomic<bool>::is_always_lock_free);
 
-/// Of the terminal that the bar is on.
+/// The width of the terminal that shows the bar.
 int columns() {
   winsize size{};
   const bool is_known = ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
@@ -38,7 +38,7 @@ std::string duration(double seconds) {
   return std::to_string(minutes / 60) + " h " + std::to_string(minutes % 60) + " min";
 }
 
-/// In one write: what several ranks print to one terminal is mixed write by write.
+/// Prints in one write, because the output of several ranks on one terminal mixes write by write.
 void print(const std::string& text) { std::cerr << text << std::flush; }
 
 }  // namespace

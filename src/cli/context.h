@@ -17,11 +17,11 @@
 
 namespace leafhull::cli {
 
-/// What verbs repeat: they read a tree, open a device meanwhile, warn, and tell how long it took.
+/// What verbs share: they read a tree while a device opens, warn, and say how long it took.
 class Context {
  public:
   /// @param speaks false: nothing is said, whatever the arguments.
-  /// @throws Error usage: --quiet and --verbose.
+  /// @throws Error usage: --quiet and --verbose together.
   explicit Context(const Arguments& arguments, bool speaks = true);
 
   Console console;
@@ -33,7 +33,7 @@ class Context {
   /// Opens the device and builds its kernels while the tree is read.
   void open_device(const DeviceOptions& options, int falloff);
   void open_device(int falloff) { open_device(arguments_.device, falloff); }
-  /// Waits for it.
+  /// Waits for the device.
   Device& device();
 
   TreeModel read(const std::filesystem::path& file, std::string_view stage = "read");
@@ -41,18 +41,18 @@ class Context {
   /// The operand's leaves; the tree is given back before the memory is needed.
   LeafSet read_leaves(const LeafOptions& options);
 
-  /// What the library's functions tell of themselves on the way.
+  /// Shows the progress that the library's functions report.
   Progress progress();
   double elapsed() const { return since(start_); }
-  /// Adds what the library took, but for its total.
+  /// Adds the library's stages, without its total.
   void add_times(const std::vector<StageTime>& times);
-  /// Of all stages so far, in order, the total last.
+  /// All stages so far, in order, the total last.
   std::vector<StageTime> times() const;
-  /// Details: a line for each stage but the total.
+  /// Says a detail line for each stage but the total.
   void say_stages(const std::vector<StageTime>& times, const std::string& indent,
                   std::size_t width);
 
-  /// What `work` returns; it counts as a stage.
+  /// Runs `work` as a stage and returns its result.
   template <class Work>
   auto timed(std::string_view stage, Work&& work) {
     console.progress(stage, 0);
@@ -71,7 +71,7 @@ class Context {
   std::optional<Device> device_;
 };
 
-/// The most memory that this process has had.
+/// The peak memory of this process.
 std::uint64_t peak_memory_bytes();
 
 }  // namespace leafhull::cli

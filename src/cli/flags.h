@@ -17,14 +17,14 @@ class App;
 
 namespace leafhull::cli {
 
-/// A flag of the command line: the line of its row, and what it does.
+/// A command-line flag: the line of its row, and what the flag does.
 struct Flag {
   OptionLine line;
   std::function<void(Arguments&, const std::string& value)> set;
-  bool hidden = false;  ///< understood, and in no table
+  bool hidden = false;  ///< accepted, but listed in no table
 };
 
-/// The flags of rows, or of one group of them, of options that `part` finds in the arguments.
+/// The flags of all rows, or of one group, whose options `part` finds in the arguments.
 template <class Struct, class... Members, class Part>
 std::vector<Flag> flags_of(std::span<const RowOf<Struct, Members...>> rows, Part part,
                            std::string_view group = {}) {
@@ -39,12 +39,12 @@ std::vector<Flag> flags_of(std::span<const RowOf<Struct, Members...>> rows, Part
   return flags;
 }
 
-/// The flags of what only the command knows.
+/// The flags of options that only the command has.
 std::vector<Flag> flags_of(std::span<const ArgumentRow> rows);
 
 /// The rows of option_table(), or of one group of them.
 std::vector<Flag> option_flags(std::string_view group = {});
-/// Those of a forest as a whole.
+/// The flags of a forest as a whole.
 std::vector<Flag> forest_flags();
 std::vector<Flag> render_flags();
 std::vector<Flag> device_flags();
@@ -53,7 +53,7 @@ std::vector<Flag> json_flags();
 std::vector<Flag> help_flags();
 std::vector<Flag> all_of(std::initializer_list<std::vector<Flag>> groups);
 
-/// The words of a command, each flag made one with the word that may follow it.
+/// The words of a command, each flag joined with the word that may follow it.
 std::vector<std::string> joined_words(std::vector<std::string> command,
                                       const std::vector<Flag>& flags);
 

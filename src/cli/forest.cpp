@@ -35,10 +35,10 @@ std::vector<Flag> forest_output_flags() {
                  flags_of(std::span<const OutputOptionRow>(report), &Arguments::files)});
 }
 
-/// The options of its trees; those that tiles cannot have are refused with the reason.
+/// The options of a forest's trees; those that tiles cannot have are refused with the reason.
 std::vector<Flag> tree_flags() {
   constexpr std::pair<std::string_view, std::string_view> kRefused[] = {
-      {"mesher", "tiles meet without cracks by the mesher over bricks alone"},
+      {"mesher", "only the mesher over bricks makes tiles meet without cracks"},
       {"adaptivity", "merged triangles would leave cracks between tiles"}};
   std::vector<Flag> flags = option_flags();
   for (Flag& flag : flags) {
@@ -55,9 +55,9 @@ std::vector<Flag> tree_flags() {
   return flags;
 }
 
-/// A forest writes over these names in its folder, and --restart removes what bears them.
+/// A forest overwrites these names in its folder, and --restart removes files so named.
 void check_name(const fs::path& file, std::string_view what, const fs::path& folder) {
-  std::error_code unreadable;  // which its reader or writer finds too
+  std::error_code unreadable;  // its reader or writer reports this too
   const auto place = [&](const fs::path& path) {
     return fs::weakly_canonical(fs::absolute(path), unreadable);
   };
@@ -74,7 +74,7 @@ void check_name(const fs::path& file, std::string_view what, const fs::path& fol
   }
 }
 
-/// The forest's own folder may not be there yet.
+/// Checks an output file; the forest's own folder may not exist yet.
 void check_file(const fs::path& file, std::string_view extension, const Arguments& arguments,
                 const fs::path& input) {
   const bool in_folder = fs::proximate(file, arguments.output).parent_path().empty();
@@ -106,7 +106,7 @@ void check_forest_arguments(const Arguments& arguments, const ForestOptions& for
   check_output_folder(arguments.output);
 }
 
-/// A forest does not overwrite its trees.
+/// Checks that the forest does not overwrite its trees.
 void check_models(const Arguments& arguments, const Scene& scene) {
   const std::optional<fs::path>& single = arguments.forest.single;
   for (const SceneModel& model : scene.models) {
@@ -116,7 +116,7 @@ void check_models(const Arguments& arguments, const Scene& scene) {
   }
 }
 
-/// Ranks that disagree would wait for each other for ever.
+/// Checks that all ranks have the same command: if not, they would wait for each other for ever.
 void check_ranks_agree(const Arguments& arguments, Ranks& ranks) {
   std::string words;
   for (std::size_t i = 1; i < arguments.command.size(); ++i) words += arguments.command[i] + '\0';
@@ -124,13 +124,13 @@ void check_ranks_agree(const Arguments& arguments, Ranks& ranks) {
   for (std::size_t rank = 1; rank < all.size(); ++rank) {
     if (all[rank] == all.front()) continue;
     throw Error(ErrorCode::usage,
-                "rank " + std::to_string(rank) + " was started with other words than rank 0",
+                "rank " + std::to_string(rank) + " was not started with the same command as rank 0",
                 "Give all ranks the same command. For parts of their own start them without MPI "
                 "(srun --mpi=none).");
   }
 }
 
-/// Ranks would write one journal, as the one part.
+/// Refuses --tile-range on several ranks, which would all write that part's journal.
 void check_ranks_share_all(const Arguments& arguments, const Ranks& ranks) {
   if (ranks.size() == 1 || !arguments.forest.range) return;
   throw Error(ErrorCode::usage,
@@ -204,15 +204,15 @@ void write_report(const ForestSummary& summary, const Arguments& arguments,
   }
 }
 
-/// Tiles are alike: what one gives back to the heap the next takes, whatever the thread, without
-/// asking the system again.
+/// Keeps freed memory: tiles are alike, so the next one, on any thread, reuses what the last one
+/// freed without asking the system again.
 void keep_freed_memory() {
   mallopt(M_ARENA_MAX, 1);
   mallopt(M_MMAP_THRESHOLD, 32 << 20);  // the most that glibc takes
   mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
 }
 
-/// An error, after which the tiles that are done stay, with how many are not.
+/// Rethrows the error and adds how many tiles are still to do; finished tiles stay.
 [[noreturn]] void rethrow_with(const std::string& still_to_do) {
   const Failure failure = current_failure();
   const auto code = static_cast<ErrorCode>(failure.exit_code);
@@ -278,12 +278,12 @@ void make_forest(const Arguments& arguments, Ranks& ranks) {
   if (!speaks) return;
   context.warn(summary.warnings);
   write_report(summary, arguments, options);
-  // Of several ranks, and of a run that did all, the trees' own count.
+  // Where the run did all, on any number of ranks, count the trees' own leaf vertices.
   const bool did_all = summary.resumed == 0 && summary.remaining == 0;
   say_summary(context, summary, arguments, did_all ? summary.leaf_vertices : leaf_vertices);
 }
 
-/// On several ranks one that fails ends the others, which do not know of it.
+/// Runs the verb; of several ranks, one that fails ends the others, which would not notice.
 void run_forest_verb(const Arguments& arguments) {
   const std::unique_ptr<Ranks> ranks = open_ranks();
   if (ranks->size() == 1) return make_forest(arguments, *ranks);

@@ -16,17 +16,17 @@
 namespace leafhull::cli {
 namespace {
 
-// For the handler of a signal: all but `tiles` is set before it is installed.
+// State for the signal handler; all but `tiles` is set before the handler is installed.
 struct {
   Ranks* ranks = nullptr;
   std::vector<std::string> names;  ///< by rank
   std::string how_to_go_on;
   bool tells_stop = false;
-  bool has_other_hosts = false;  ///< whose ranks may be lost unseen
+  bool has_other_hosts = false;  ///< their ranks may be lost unseen
   std::atomic<std::size_t> tiles = 0;
 } this_run;
 
-/// A line in a buffer of its own: a handler of a signal may not allocate.
+/// A line in its own buffer, because a signal handler may not allocate.
 class Line {
  public:
   void add(std::string_view text) {

@@ -10,18 +10,18 @@ class Ranks;
 
 namespace leafhull::cli {
 
-/// What a forest's ranks say where a signal ends them: the first on its host to end tells which
-/// others of it are lost, and how much is still to do. One object at a time.
+/// What a forest's ranks say when a signal ends them: the first on its host to end says which of
+/// the others there are lost and how much is still to do. One object at a time.
 class ForestWords {
  public:
-  /// @param how_to_go_on one clause.
+  /// @param how_to_go_on one clause on how to continue.
   ForestWords(Ranks& ranks, bool quiet, const std::string& how_to_go_on);
   ~ForestWords();
   ForestWords(const ForestWords&) = delete;
   ForestWords& operator=(const ForestWords&) = delete;
 
-  void set_tiles(std::size_t tiles);  ///< how many there are in all, once they are counted
-  /// How much is still to do, for a rank that an error ends: a sentence; empty before set_tiles().
+  void set_tiles(std::size_t tiles);  ///< sets how many tiles there are, once counted
+  /// A sentence on how much is still to do when an error ends a rank; empty before set_tiles().
   std::string still_to_do() const;
 };
 

@@ -50,7 +50,7 @@ std::string entry(std::string_view term, std::string_view text) {
   return entry(term, wrapped(text));
 }
 
-/// The meaning with unit, range and default; these on a line of their own where they do not fit.
+/// The meaning with unit, range and default, which go on their own line where they do not fit.
 std::string help_line(const OptionLine& line) {
   const std::string details = facts(line);
   if (details.empty()) return entry(spelled(line), line.help);

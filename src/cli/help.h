@@ -11,7 +11,7 @@ namespace leafhull::cli {
 
 /// "-o, --output FILE"
 std::string spelled(const OptionLine& line);
-/// Unit, range and default, as far as there are.
+/// Unit, range and default, where there are any.
 std::string facts(const OptionLine& line);
 
 std::string_view command_about();  ///< what leafhull is for

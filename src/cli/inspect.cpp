@@ -27,7 +27,7 @@ std::string_view name_of(AlphaMode mode) {
   return kNames[static_cast<std::size_t>(mode)];
 }
 
-/// What a name from the file shows on a terminal: control characters become ?, which also matches
+/// A name from the file as a terminal shows it: control characters become ?, which also matches
 /// them in a glob.
 std::string printable(std::string name) {
   const auto is_control = [](unsigned char c) { return c < 0x20 || c == 0x7F; };
@@ -40,7 +40,7 @@ std::string_view name_of(LeafVerdict verdict) {
   return kNames[static_cast<std::size_t>(verdict)];
 }
 
-/// As --leaves-colour takes it.
+/// The colour as --leaves-colour takes it.
 std::string text_of(const LeafColour& colour) {
   std::array<char, 8> hex{};
   std::snprintf(hex.data(), hex.size(), "#%02x%02x%02x", unsigned{colour.srgb[0]},
@@ -75,14 +75,14 @@ std::vector<std::string> suggestions(const Arguments& arguments, const LeafChoic
           extract + " -o " + quoted(stem + "-thin.glb") + " --style thin"};
 }
 
-/// Candidates that are one thing to a reader: of one material, or one mesh or node without one.
+/// Candidates that a reader sees as one: they share a material or, without one, a mesh or node.
 struct Row {
   const LeafCandidate* first = nullptr;
   std::size_t candidates = 0, instances = 0, triangles = 0;
   double area = 0;
 };
 
-/// The likeliest first, as the candidates come.
+/// The rows, likeliest first, as the candidates come.
 std::vector<Row> rows_of(const std::vector<LeafCandidate>& candidates) {
   using Key = std::tuple<std::string, std::string, std::string, LeafVerdict>;
   std::map<Key, std::size_t> known;
@@ -143,7 +143,7 @@ void print_fact(std::string label, const std::string& value) {
   std::cout << label << value << '\n';
 }
 
-/// The unit that trees of this height are likely to be in; empty where it is metres.
+/// The likely unit of a tree of this height; empty for metres.
 std::string likely_unit(double height) {
   if (height > 8000) return "millimetres?";
   if (height > 80) return "centimetres?";

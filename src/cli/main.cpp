@@ -33,7 +33,7 @@ std::string with_guess(std::string_view word, std::span<const std::string_view> 
 
 bool is_option(const std::string& word) { return word.starts_with('-'); }
 
-/// Words that neither the verb nor its flags took.
+/// Refuses words that neither the verb nor its flags took.
 void refuse_extras(std::vector<std::string> extras, const Verb& verb) {
   std::erase(extras, "--");
   if (extras.empty()) return;

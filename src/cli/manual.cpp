@@ -12,7 +12,7 @@
 namespace leafhull::cli {
 namespace {
 
-/// Text of which roff takes nothing for its own.
+/// Text escaped so that roff reads none of it as a command.
 std::string roff(std::string_view text) {
   std::string escaped;
   for (const char c : text) {
@@ -23,7 +23,7 @@ std::string roff(std::string_view text) {
   return escaped;
 }
 
-/// Text whose paragraphs stand apart.
+/// Text with its paragraphs set apart.
 std::string paragraphs(std::string_view text) {
   std::string page = roff(text);
   for (std::size_t at = 0; (at = page.find("\n\n", at)) != std::string::npos;) {
@@ -38,7 +38,7 @@ std::string entry_of(const OptionLine& line) {
          (details.empty() ? "" : " (" + roff(details) + ")") + "\n";
 }
 
-/// The groups that a verb has before this one are told of there.
+/// Which verb has already listed a group of options; later verbs refer to it.
 using Told = std::map<std::string, std::string_view>;
 
 std::string section(const Verb& verb, Told& told) {

@@ -68,7 +68,7 @@ std::vector<std::string> without_effect(const Arguments& arguments, bool is_tree
   return warnings;
 }
 
-/// Reads and draws; what is asked of it is checked.
+/// Reads and draws, with options that have been checked.
 class Run {
  public:
   Run(const Arguments& arguments, const PicturePlan& plan, Context& context)
@@ -153,7 +153,7 @@ class Run {
                          " in " + seconds(context_.elapsed()) + ": " + file.string());
   }
 
-  /// The shape, the last of `row`, with what stands beside it.
+  /// Writes the shape, the last of `row`, with what stands beside it.
   void write(std::span<const Subject> row, Device& device) {
     const Report& report = row.back().report();
     if (report.resolution > 0) {

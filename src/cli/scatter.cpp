@@ -16,7 +16,7 @@ std::vector<Flag> scatter_flags() {
   return all_of({flags_of(rows), flags_of(scatter_table(), &Arguments::scatter)});
 }
 
-/// Of the options about leaves only --leaves is offered: the others do not move a tree.
+/// The options of the input and, about leaves, only --leaves: the others do not move a tree.
 std::vector<Flag> input_flags() {
   std::vector<Flag> flags = option_flags("Leaves");
   std::erase_if(flags, [](const Flag& flag) { return flag.line.name != "leaves"; });

@@ -10,7 +10,7 @@ namespace leafhull::cli {
 /// dying command says.
 void catch_signals(std::string_view last_words = {});
 
-/// The same where the last words are found when they are needed: `say_last_words` is
+/// The same with last words that are composed when they are needed: `say_last_words` is
 /// async-signal-safe.
 void catch_signals(void (*say_last_words)() noexcept);
 

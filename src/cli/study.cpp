@@ -38,7 +38,7 @@ void check_study_arguments(const Arguments& arguments) {
   }
   const std::vector<fs::path>& trees = arguments.trees;
   for (auto tree = trees.begin(); tree != trees.end(); ++tree) {
-    std::error_code missing;  // is told when the tree is read
+    std::error_code missing;  // reported when the tree is read
     const auto is_same = [&](const fs::path& other) {
       return fs::equivalent(*tree, other, missing);
     };
@@ -49,7 +49,7 @@ void check_study_arguments(const Arguments& arguments) {
   check_output_folder(arguments.output);
 }
 
-/// What the report calls the trees: their files' stems, numbered where two are the same.
+/// Names for the trees in the report: their files' stems, numbered where two are the same.
 std::vector<std::string> names_of(const std::vector<fs::path>& trees) {
   std::vector<std::string> names;
   std::set<std::string> taken;
@@ -62,8 +62,8 @@ std::vector<std::string> names_of(const std::vector<fs::path>& trees) {
   return names;
 }
 
-/// The command as typed, with names in place of paths: where this machine keeps its files is
-/// nobody's business.
+/// The command as typed, but with file names in place of paths, so that the report does not show
+/// where this machine keeps its files.
 std::string without_folders(const Arguments& arguments) {
   std::vector<fs::path> paths = arguments.trees;
   paths.push_back(arguments.output);
@@ -115,7 +115,7 @@ std::string_view in_words(Outcome outcome) {
   return kWords[static_cast<std::size_t>(outcome)];
 }
 
-/// The verdicts under the project's own reading, and under how many a claim holds.
+/// Prints the verdicts under the project's own reading, and under how many each claim holds.
 void print_verdicts(const TreeStudy& tree) {
   std::vector<std::vector<std::string>> rows = {{"claim", "own reading", "holds in"}};
   const std::vector<ReadingStudy>& readings = tree.readings;

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t kMostUnasked = 10'000;
 
-/// The options, several values at once where a sweep takes them.
+/// The options; those that can be swept take several values.
 std::vector<Flag> swept_flags() {
   std::vector<Flag> flags = option_flags();
   for (Flag& flag : flags) {
@@ -70,7 +70,7 @@ void check_sweep_arguments(const Arguments& arguments) {
   }
 }
 
-/// In the order of option_table(): it is one array.
+/// Sorts the options as in option_table(), which is one array.
 std::vector<SweptOption> in_order(std::vector<SweptOption> swept) {
   std::sort(swept.begin(), swept.end(), [](const auto& a, const auto& b) { return a.row < b.row; });
   return swept;
@@ -103,7 +103,7 @@ SweepPlan plan_of(const Arguments& arguments) {
   return plan;
 }
 
-/// The one falloff whose kernels are built while the tree is read.
+/// The first combination's falloff, whose kernels are built while the tree is read.
 int first_falloff(const SweepPlan& plan) { return plan.combinations.front().falloff; }
 
 void say_summary(Context& context, const SweepSummary& summary, const Arguments& arguments) {

@@ -7,7 +7,7 @@
 namespace leafhull::cli {
 namespace {
 
-/// Columns on a terminal, not bytes: the continuation bytes of UTF-8 take none.
+/// The columns that text takes on a terminal, where UTF-8 continuation bytes take none.
 std::size_t width(std::string_view text) {
   return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
     return (static_cast<unsigned char>(c) & 0xC0) != 0x80;

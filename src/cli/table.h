@@ -6,7 +6,7 @@
 
 namespace leafhull::cli {
 
-/// Rows in columns of equal width, the first row the heads. Numbers are set to the right.
+/// Rows in aligned columns, the first row being the heads. Numbers are right-aligned.
 std::string table(const std::vector<std::vector<std::string>>& rows);
 
 }  // namespace leafhull::cli

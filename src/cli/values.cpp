@@ -69,7 +69,7 @@ void parse(bool& value, const Typed&) { value = !value; }
 
 void parse(int& value, const Typed& typed) {
   parse_whole(value, typed);
-  if (typed.in_range) check_value(typed.line, value);  // a multiple
+  if (typed.in_range) check_value(typed.line, value);  // for its step
 }
 
 void parse(std::uint64_t& value, const Typed& typed) { parse_whole(value, typed); }
@@ -182,7 +182,7 @@ void parse(TileRange& value, const Typed& typed) {
 }
 
 void parse(Style& value, const Typed& typed) {
-  // The name that it had up to 0.1.
+  // The method's name up to 0.1.
   value = typed.text == "luft-deussen"
               ? Style::paper_previous
               : static_cast<Style>(choice(typed.flag, typed.text, names(value)));

@@ -23,12 +23,12 @@ struct Typed {
   const OptionLine& line;
   const std::string& text;
   std::string flag = "--" + std::string(line.name);
-  bool in_range = true;  ///< numbers are held against the line's; false: resolve() does it
+  bool in_range = true;  ///< numbers are checked against the line's range; false: by resolve()
 };
 
-// Each reads a value. @throws Error usage: the text is none, or one that is out of range.
+// Each reads a value. @throws Error usage: the text is not a value, or is out of range.
 
-void parse(bool& value, const Typed& typed);  ///< the other value
+void parse(bool& value, const Typed& typed);  ///< flips it
 void parse(int& value, const Typed& typed);
 void parse(double& value, const Typed& typed);
 void parse(std::uint64_t& value, const Typed& typed);
@@ -84,21 +84,21 @@ void assign(Struct& options, std::pair<std::optional<Inner> Struct::*, Value Inn
   parse(*inner.*path.second, typed);
 }
 
-/// Reads a value into what the row is of. @throws Error usage, as parse().
+/// Reads a value into the row's member. @throws Error usage, as parse().
 template <class Struct, class... Members>
 void set_value(Struct& options, const RowOf<Struct, Members...>& row, const Typed& typed) {
   std::visit([&](auto part) { assign(options, part, typed); }, row.member);
 }
 
-/// Reads `text` into what the row is of, or a percentage into what it stands for. Ranges are
-/// resolve's business.
+/// Reads `text` into the row's member, or a percentage into the option that takes it. resolve()
+/// checks ranges.
 /// @throws Error usage: not a number, or not one of the names.
 void set_option(Options& options, const OptionRow& row, const std::string& text);
 
 /// Quoted for a POSIX shell where it has to be.
 std::string quoted(const std::string& word);
 
-std::string number(double value, int digits = 6);  ///< at most so many significant digits
+std::string number(double value, int digits = 6);  ///< with at most `digits` significant digits
 std::string count(std::uint64_t value);            ///< 1,234,567
 std::string seconds(double value);                 ///< 0.123 s
 std::string bytes(std::uint64_t value);            ///< 512 MiB, 1.5 GiB

@@ -13,10 +13,10 @@ namespace leafhull::cli {
 struct Verb {
   std::string_view name, summary, about, examples;
   bool takes_tree = false;
-  bool takes_trees = false;  ///< one or more
+  bool takes_trees = false;  ///< takes one or more trees
   std::string_view operand = "TREE", operand_help = "a .glb, .gltf, .fbx or .obj file",
                    operand_example = "tree.glb";
-  std::span<const std::string_view> operand_words = {};  ///< all that it may be; empty: a file
+  std::span<const std::string_view> operand_words = {};  ///< the words it may be; empty: a file
   bool hidden = false;
   std::vector<Flag> flags;
   void (*run)(const Arguments&) = nullptr;
@@ -24,10 +24,10 @@ struct Verb {
   bool takes_operand() const { return takes_tree || takes_trees; }
 };
 
-/// In the order in which they are listed.
+/// All verbs in the order in which they are listed.
 std::vector<Verb> all_verbs();
 
-/// The option of CMake that a verb is left out without; empty for a verb that is here, or nowhere.
+/// The CMake option that adds a verb which this build leaves out; empty for any other word.
 std::string_view option_that_brings(std::string_view verb);
 
 Verb extract_verb();

@@ -8,7 +8,7 @@ struct LeftOut {
   std::string_view verb, option;
 };
 
-/// The verbs that this build goes without.
+/// The verbs that this build leaves out.
 constexpr LeftOut kLeftOut[] = {
 #ifndef LEAFHULL_HAS_STUDY
     {"suggest", "LEAFHULL_STUDY"},

@@ -22,7 +22,7 @@ bool is_journal(const std::string& name) {
   return name.starts_with("journal-") && name.ends_with(".jsonl");
 }
 
-/// Whether it is of a tile: LEVEL/X_Y_Z with a suffix.
+/// Whether a file is a tile's: LEVEL/X_Y_Z with a suffix.
 bool is_tile_file(const fs::path& file) {
   const std::string name = file.parent_path().filename().string() + "/" + file.stem().string();
   const std::string extension = file.extension().string();
@@ -36,7 +36,7 @@ bool is_level(const std::string& name) {
   return !name.empty() && name.find_first_not_of("0123456789") == std::string::npos;
 }
 
-/// LEVEL/X_Y_Z.* and the folders that are then empty.
+/// Removes LEVEL/X_Y_Z.* and the folders that are then empty.
 void remove_tiles(const fs::path& folder) {
   for (const fs::path& level : entries_of(folder)) {
     if (!is_level(level.filename().string())) continue;
@@ -47,19 +47,19 @@ void remove_tiles(const fs::path& folder) {
   }
 }
 
-/// Even a damaged file says whose it is.
+/// Refuses a file of another program; even a damaged file of ours holds its schema's name.
 void check_schema(const fs::path& file, std::string_view schema) {
   if (!fs::exists(file) || content_of(file).find(schema) != std::string::npos) return;
-  throw Error(ErrorCode::usage, file.string() + " is of no forest", kNameAnother);
+  throw Error(ErrorCode::usage, file.string() + " belongs to no forest", kNameAnother);
 }
 
-/// Removes the shapes beside the tiles that `list` names, as long as they are what was written.
+/// Removes the shapes beside the tiles that `list` names, where they are still as written.
 void remove_listed(const fs::path& list, std::string_view schema, const fs::path& folder) {
   Json files;
   try {
     files = unsealed_file(list, schema, "").at("files");
   } catch (const Error&) {
-    return;  // missing or damaged: then nothing tells what is ours
+    return;  // missing or damaged: nothing tells what is ours
   }
   for (const auto& [name, record] : files.items()) {
     const fs::path file = folder / name;
@@ -82,7 +82,7 @@ std::vector<fs::path> ForestFolder::journals() const {
 }
 
 void ForestFolder::check_ours() const {
-  if (fs::exists(manifest())) return;  // which is checked when it is read
+  if (fs::exists(manifest())) return;  // a manifest is checked when it is read
   if (!fs::exists(work())) {
     for (const char* name : {"tiles", "tileset.json", "forest.glb"}) {
       if (!fs::exists(folder_ / name)) continue;
@@ -90,9 +90,9 @@ void ForestFolder::check_ours() const {
     }
   }
   for (const fs::path& entry : entries_of(work())) {
-    // A plan comes before all else, so it is looked for after.
+    // Another rank writes its plan before all else, so look for a plan after listing.
     if (is_unfinished(entry.filename().string()) || fs::exists(plan())) continue;
-    throw Error(ErrorCode::usage, entry.string() + " is of no forest", kNameAnother);
+    throw Error(ErrorCode::usage, entry.string() + " belongs to no forest", kNameAnother);
   }
 }
 
@@ -102,7 +102,7 @@ void ForestFolder::remove_forest() const {
   if (!fs::exists(manifest()) && !fs::exists(plan()) && !fs::exists(removed())) return;
   for (const fs::path& journal : journals()) SealedLines(journal, "another process");
 
-  if (fs::exists(manifest())) {  // first, so that no manifest lists what is gone
+  if (fs::exists(manifest())) {  // first, so that no manifest lists missing files
     std::error_code error;
     fs::create_directories(work(), error);
     if (!error) fs::rename(manifest(), removed(), error);
@@ -126,7 +126,7 @@ void ForestFolder::clear_work() const {
   for (const fs::path& entry : entries_of(work())) {
     if (is_unfinished(entry.filename().string())) remove_path(entry);
   }
-  // The plan last: without it, work/ is not ours.
+  // The plan goes last: without it, work/ is not ours.
   for (const fs::path& file : {files(), removed(), control(), plan()}) remove_path(file);
 }
 

@@ -16,7 +16,7 @@ inline constexpr std::string_view kPlanSchema = "leafhull-forest-plan/1";
 inline constexpr std::string_view kControlSchema = "leafhull-forest-control/1";
 inline constexpr std::string_view kFilesSchema = "leafhull-forest-files/1";
 
-/// What is where in a forest's folder, for one of its writers.
+/// The layout of a forest's folder, for one of its writers.
 class ForestFolder : public RunFolder {
  public:
   ForestFolder(const std::filesystem::path& folder, const std::string& writer)
@@ -27,7 +27,7 @@ class ForestFolder : public RunFolder {
   std::filesystem::path tiles() const { return folder_ / "tiles"; }
   std::filesystem::path tile(const TileId& id) const { return folder_ / file_of(id); }
 
-  // Gone when the forest is finished.
+  // These are gone when the forest is finished.
   std::filesystem::path work() const { return folder_ / "work"; }
   std::filesystem::path plan() const { return work() / "plan.json"; }
   std::filesystem::path control() const { return work() / "control.json"; }
@@ -35,18 +35,18 @@ class ForestFolder : public RunFolder {
   std::vector<std::filesystem::path> journals() const;
   std::filesystem::path mesh(const TileId& id) const { return work() / (name_of(id) + ".glb"); }
   std::filesystem::path seam(const TileId& id) const { return work() / (name_of(id) + ".seam"); }
-  /// The seam of what is left of a tile that has lost pieces.
+  /// The seam of the rest of a tile that has lost pieces.
   std::filesystem::path kept_seam(const TileId& id) const {
     return work() / (name_of(id) + ".kept");
   }
-  /// Files that may lie outside of the folder.
+  /// The list of files that may lie outside the folder.
   std::filesystem::path files() const { return work() / "files.json"; }
   /// The manifest of a forest that is being removed.
   std::filesystem::path removed() const { return work() / "removed.json"; }
 
-  /// Refuses a folder whose files of a forest's names are of no forest of ours.
+  /// Refuses a folder whose files have a forest's names but belong to no forest of ours.
   void check_ours() const;
-  /// Removes the forest and nothing else. @throws Error usage: another process is at it.
+  /// Removes the forest and nothing else. @throws Error usage: another process is using it.
   void remove_forest() const;
   /// Removes work/; what is not ours stays.
   void remove_work() const;

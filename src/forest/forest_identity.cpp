@@ -16,7 +16,7 @@ std::string checksum_of(std::span<const PlacedTree> trees) {
   std::string bytes;
   for (const PlacedTree& tree : trees) {  // member by member: there is padding
     add_bytes(bytes, tree.position, tree.linear, tree.model);
-    // Of a part at a time, so that a million trees take no memory.
+    // Replace the bytes by their checksum at 1 MiB, so that a million trees take no memory.
     if (bytes.size() > std::size_t{1} << 20) bytes = record_of(bytes).sha256;
   }
   return record_of(bytes).sha256;

@@ -18,7 +18,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Options that no tile heeds, and those of a run alone.
+/// Options that no tile uses, and options that only concern one run.
 constexpr std::string_view kNotToldOf[] = {"mesher", "adaptivity", "resume", "restart"};
 
 Json options_of(const ForestOptions& options) {
@@ -70,7 +70,7 @@ std::string forest_report_json(const ForestSummary& summary, const ForestOptions
                        {"peak_memory_bytes", summary.peak_memory_bytes},
                        {"tiles", rows(summary.rows)},
                        {"warnings", summary.warnings}};
-  // A path may hold bytes that are no UTF-8; JSON may not.
+  // A path may hold bytes that are not UTF-8; JSON may not.
   return dumped(report, 2) + "\n";
 }
 

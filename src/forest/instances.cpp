@@ -24,7 +24,7 @@ Vec3d to_vec(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 std::vector<double> to_json(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 std::vector<double> to_json(const Eigen::Quaterniond& q) { return {q.x(), q.y(), q.z(), q.w()}; }
 
-/// What glTF knows of a linear map: x' = rotation (scale x).
+/// A linear map that glTF can express: x' = rotation (scale x).
 struct RotatedScale {
   Eigen::Quaterniond rotation;
   Eigen::Vector3d scale;
@@ -35,8 +35,8 @@ Eigen::Matrix3d linear_of(const PlacedTree& tree) {
       .cast<double>();
 }
 
-/// Empty where the map shears: axes end at other than right angles, by more than floats round.
-/// One that mirrors has a negative scale along x.
+/// Empty where the map shears: its axes miss right angles by more than float rounding. A map that
+/// mirrors has a negative scale along x.
 std::optional<RotatedScale> rotated_scale(const Eigen::Matrix3d& linear) {
   constexpr double kRounding = 1e-6;
   Eigen::Vector3d scale = linear.colwise().norm();
@@ -50,7 +50,7 @@ std::optional<RotatedScale> rotated_scale(const Eigen::Matrix3d& linear) {
   return RotatedScale{Eigen::Quaterniond(axes).normalized(), scale};
 }
 
-/// Any map: outer (inner x).
+/// Any linear map: x' = outer (inner x).
 struct Shear {
   RotatedScale outer;
   Eigen::Quaterniond inner;
@@ -71,9 +71,8 @@ Shear shear(const Eigen::Matrix3d& linear) {
   return {{Eigen::Quaterniond(outer), scale}, Eigen::Quaterniond(inner)};
 }
 
-/// Where the node stands whose instance a tree becomes: on the coarsest lattice that has a point
-/// near enough for floats to tell the way from there by 2^-17 of the tree's size. The first of all
-/// points is the origin.
+/// The place of the node that holds a tree as an instance: a point of the coarsest lattice from
+/// which floats resolve the way to the tree to 2^-17 of its size. The origin is the first choice.
 Vec3d node_place(const Eigen::Vector3d& position, double tree_size) {
   const double reach = std::ldexp(tree_size, 7);
   const double farthest = position.lpNorm<Eigen::Infinity>();
@@ -85,7 +84,7 @@ Vec3d node_place(const Eigen::Vector3d& position, double tree_size) {
   }
 }
 
-/// What becomes a node: the trees of a model that are near to a place.
+/// The trees of a model that are near one place; they become a node.
 struct Batch {
   std::uint32_t model;
   Vec3d place;
@@ -111,7 +110,7 @@ struct Instances {
   }
 };
 
-/// The document as it comes together.
+/// The document while it is built.
 class Document {
  public:
   explicit Document(std::span<const ModelShape> shapes) : shapes_(shapes) {
@@ -200,7 +199,7 @@ void check_size(const tinygltf::Model& model, std::size_t shapes, std::size_t tr
   throw Error(ErrorCode::output,
               std::to_string(shapes) + " shapes and " + std::to_string(trees) +
                   " trees do not fit into the 4 GiB of a GLB",
-              "Choose a lower resolution, or part the scene.");
+              "Choose a lower resolution, or divide the scene.");
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ namespace {
 
 constexpr const char* kFile = "forest.glb";
 
-/// Without vertices where the model has no surface.
+/// A model's shape, without vertices where the model has no surface.
 ModelShape shape_of(const SceneModel& model, const LeafSet& leaves, const Options& options,
                     Device& device, ForestSummary& summary) {
   try {

@@ -6,8 +6,8 @@
 
 namespace leafhull {
 
-/// Every tree model extracted once, as it stands alone, and forest.glb with all trees as instances
-/// of these shapes. Rank 0 works, the others wait.
+/// Extracts every tree model once, as it stands alone, and writes forest.glb with all trees as
+/// instances of these shapes. Rank 0 works, the others wait.
 /// @throws Error as run_forest.
 ForestSummary merge_none(const Scene& scene, const ForestOptions& options, Device& device,
                          Ranks& ranks, const std::filesystem::path& folder,

@@ -34,7 +34,7 @@ void check_contradictions(const ForestOptions& forest) {
       tile(forest.tile.has_value(), "--tile"), apart(forest.merge == Merge::none, "--merge none");
   refuse_both(resume, restart, "Go on with what DIR holds, or begin anew.");
   refuse_both(finish, range, "Compute every part first, then finish once.");
-  refuse_both(finish, restart, "To finish needs the tiles that --restart removes.");
+  refuse_both(finish, restart, "--finish needs the tiles that --restart removes.");
   refuse_both(range, restart, "A part would remove what others have done: empty DIR first.");
   refuse_both(range, single, "It is made of all tiles: give it to --finish.");
   for (const auto& of_tiles : {levels, single, tile, range, finish}) {
@@ -42,7 +42,7 @@ void check_contradictions(const ForestOptions& forest) {
   }
 }
 
-/// What a density over several trees cannot do.
+/// Refuses options that a density over several trees cannot have.
 void check_shape(const ForestOptions& forest) {
   const Options& shape = forest.shape;
   const bool over_scene = forest.control_scope == ControlScope::scene;
@@ -53,11 +53,11 @@ void check_shape(const ForestOptions& forest) {
     return;
   }
   if (over_scene && (shape.erosion || shape.dilation)) {
-    refuse("--erosion and --dilation are of each model, and --control-scope is scene",
+    refuse("--erosion and --dilation go by model, but --control-scope is scene",
            "Leave out one of the two.");
   }
   if (shape.density == DensitySource::grid) {
-    refuse("--density grid is of a single tree", "Leave it out, or add --merge none.");
+    refuse("--density grid is only for a single tree", "Leave it out, or add --merge none.");
   }
   if (shape.dense || shape.adaptivity > 0) {
     refuse("tiles have neither --dense nor --adaptivity", "Leave them out, or add --merge none.");

@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 /// Tiles in memory at once.
 constexpr int kPlacedAtOnce = 8;
 
-/// A tile that loses nothing is the file that it was.
+/// Places a tile that loses nothing: its file stays as it is.
 void place_whole(StoredTiles& tiles, std::size_t t) {
   const TileRecord& record = tiles[t].record;
   ForestFolder& folder = tiles.folder();

@@ -29,7 +29,7 @@
 namespace leafhull {
 namespace {
 
-/// visit(name, number) for all that control over the scene has found for a level.
+/// Calls visit(name, number) for each number that control over the scene finds for a level.
 template <class Level, class Visit>
 void for_each_found(Level& level, const Visit& visit) {
   visit("mean", level.scene_statistics->mean);
@@ -59,7 +59,7 @@ struct Forest {
     return all;
   }
 
-  /// Heavy ones first, so that none is left over when the others are done.
+  /// The work, heavy tiles first, so that none is left over when the others are done.
   std::vector<Work> work() const {
     std::vector<Work> all;
     for (std::size_t l = 0; l < plans.size(); ++l) {
@@ -75,7 +75,7 @@ struct Forest {
 
 using Computing = std::counting_semaphore<kTilesAtOnce>;
 
-/// One of the tiles that may be computed at once.
+/// Permission to compute a tile; a few tiles may be computed at once.
 class Permit {
  public:
   explicit Permit(Computing& computing) : computing_(computing) { computing_.acquire(); }
@@ -155,12 +155,12 @@ class Run {
     for (const ForestLevel& level : forest_.levels) {
       forest_.plans.emplace_back(level, forest_.edge);
     }
-    // Which computes surfaces, so that what cannot be has been refused before.
+    // This computes surfaces, so what cannot be made has been refused before.
     for (ForestLevel& level : forest_.levels) level.least = least_volume(level, uses, device_);
     identity_ = forest_identity(scene_, models, options_, device_.info(), voxel_size, forest_.edge);
   }
 
-  /// False where the forest is finished already.
+  /// Returns false where the forest is already finished.
   bool open_store() {
     const std::string writer = options_.range ? "part-" + std::to_string(options_.range->part) +
                                                     "-of-" + std::to_string(options_.range->parts)
@@ -197,9 +197,9 @@ class Run {
     store_->keep_control(levels);
   }
 
-  /// Takes what an earlier run or another part has kept; false where there is none.
+  /// Takes the control that an earlier run or another part has kept; false where there is none.
   bool restore_control() {
-    // As rank 0 sees it, so that all go the same way.
+    // Rank 0 decides, so that all ranks go the same way.
     const std::optional<Json> mine = ranks_.rank() == 0 ? store_->control() : std::nullopt;
     const std::string kept = ranks_.all(mine ? dumped(*mine) : "").front();
     if (kept.empty()) return false;

@@ -11,8 +11,8 @@
 namespace leafhull {
 namespace {
 
-// Behind the magic and the version: how many there are of each, then the vertices, the components,
-// and the loose vertices with their origin; 32-bit integers and floats, 128 bits for a volume.
+// After the magic and the version come the counts, then the vertices, the components, and the loose
+// vertices with their origin; 32-bit integers and floats, 128 bits for a volume.
 constexpr std::array<char, 8> kMagic{'l', 'e', 'a', 'f', 's', 'e', 'a', 'm'};
 constexpr std::uint32_t kSeamVersion = 2;
 
@@ -52,7 +52,7 @@ class Reader {
   bool at_end() const { return bytes_.empty(); }
 
   [[noreturn]] void fail() const {
-    throw Error(ErrorCode::input, where_ + " is damaged: it is no seam of a tile",
+    throw Error(ErrorCode::input, where_ + " is damaged: it is not the seam of a tile",
                 "Remove it: with --resume its tile is computed again.");
   }
 

@@ -15,7 +15,7 @@ struct Seam {
   std::uint32_t own_vertices = 0;
   std::vector<SeamVertex> borrowed, lent;
   std::vector<SeamComponent> components;
-  /// The tile's vertices where it has no triangles: those that only lower neighbours reach for.
+  /// Where the tile has no triangles, its vertices, which only lower neighbours use.
   Mesh loose;
 
   /// Whether there is nothing to keep.

@@ -8,8 +8,8 @@
 namespace leafhull {
 
 DroppedPieces find_small_pieces(const StoredTiles& tiles, const SmallPieces& small) {
-  std::vector<ExactVolume> volumes;     // of the components of all tiles, numbered through
-  std::vector<std::uint32_t> first{0};  // of each tile's components
+  std::vector<ExactVolume> volumes;     // of all tiles' components, in one sequence
+  std::vector<std::uint32_t> first{0};  // each tile's first component in it
   for (std::size_t t = 0; t < tiles.size(); ++t) {
     for (const SeamComponent& component : tiles.seam(t).components) {
       volumes.push_back(component.volume);
@@ -33,7 +33,7 @@ DroppedPieces find_small_pieces(const StoredTiles& tiles, const SmallPieces& sma
     const auto level = static_cast<std::size_t>(tiles[t].record.level);
     const ExactVolume least = level < small.least.size() ? small.least[level] : 0;
     for (std::uint32_t c = first[t]; c < first[t + 1]; ++c) {
-      const ExactVolume volume = whole[piece[c]];  // a hollow's is below 0
+      const ExactVolume volume = whole[piece[c]];  // a hollow's volume is negative
       if (volume >= least || -volume >= least) continue;
       dropped.of_tile[t].push_back(c - first[t]);
       if (piece[c] == c) ++dropped.count;

@@ -5,13 +5,13 @@
 
 namespace leafhull {
 
-/// The pieces of surface that reach over seams and that are too small.
+/// Pieces of surface that cross seams and are too small.
 struct DroppedPieces {
   std::vector<std::vector<std::uint32_t>> of_tile;  ///< indices into Seam::components
   std::uint64_t count = 0;
 };
 
-/// Brings together the components that tiles share and measures what they enclose in all.
+/// Joins the components that tiles share and measures the volume that they enclose together.
 DroppedPieces find_small_pieces(const StoredTiles& tiles, const SmallPieces& small);
 
 }  // namespace leafhull

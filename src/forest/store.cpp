@@ -117,7 +117,7 @@ void Store::open_finished(bool resume) {
   files_ = manifest.at("files");
   for (const auto& [name, record] : files_.items()) check(name, record);
   for (const Json& tile : manifest.at("tiles")) check(tile.at("file").get<std::string>(), tile);
-  folder_.remove_work();  // which may have been cut off
+  folder_.remove_work();  // its removal may have been cut off
   finished_ = true;
 }
 

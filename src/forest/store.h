@@ -21,11 +21,11 @@ namespace leafhull {
 /// plan.json, which says what forest it is.
 class Store {
  public:
-  /// Opens the folder, which is made where it is missing. Many processes may open one store, each
-  /// as another `writer`, which names its journal: letters, digits, "-" and "_". Of the ranks of a
-  /// run, one opens it as it was asked to, then the others with `resume`, as a range does always.
+  /// Opens the folder, or makes it where it is missing. Many processes may open one store, each
+  /// with its own `writer`, which names its journal: letters, digits, "-" and "_". Of a run's
+  /// ranks, one opens it as asked, then the others with `resume`, as a range always does.
   /// @param plan    what the result depends on; any difference makes it another forest.
-  /// @param resume  goes on where tiles are done; without it there may be none.
+  /// @param resume  continues where tiles are done; without it no tile may be there.
   /// @param restart removes a forest that is there, and nothing else. One that was cut off in it is
   ///                removed without it too.
   /// @throws Error usage: the folder holds another forest (what differs), or an unfinished or a
@@ -40,15 +40,15 @@ class Store {
   const std::map<TileId, TileRecord>& done() const { return done_; }
   /// @throws Error input: a journal that is damaged.
   void refresh();
-  /// What control over the scene has found, by level, once it is kept: what was computed need not
-  /// be again. @throws Error input: damaged.
+  /// What control over the scene has found, by level; empty until it is kept. It need not be
+  /// computed again. @throws Error input: damaged.
   std::optional<Json> control() const;
   void keep_control(const Json& levels);
   /// Whether manifest.json is there: the forest is finished, and nothing is kept any more.
   bool finished() const { return finished_; }
   /// Whether the finished forest has this file beside its tiles.
   bool holds(const std::string& file) const { return files_.contains(file); }
-  /// What was found amiss and is computed again.
+  /// What was found damaged and is computed again.
   const std::vector<std::string>& warnings() const { return warnings_; }
 
   /// Keeps a tile: mesh and seam, then its line. Returns the record with its files and all that the
@@ -65,22 +65,22 @@ class Store {
   TileRecord tile_of(const std::string& line, const std::string& where) const;
 
   ForestFolder folder_;
-  Json plan_;  ///< as it is after a way over the disk
+  Json plan_;  ///< as read back from the disk
   std::string plan_checksum_;
   bool finished_ = false;
-  Json files_;  ///< of a finished forest, by name
+  Json files_;  ///< those of a finished forest, by name
   std::optional<SealedLines> journal_;
   std::map<TileId, TileRecord> done_;
   std::vector<std::string> warnings_;
 };
 
-/// Writes a file of the result into the folder, by way of work/, so that nothing half-written
+/// Writes a file of the result into the folder, through work/, so that nothing half-written
 /// outlives the forest. @throws Error output.
 FileRecord put_file(Store& store, const std::string& name, const RunFolder::Fill& fill);
 
 /// Pieces of surface that are to be dropped because all tiles' parts together are small.
 struct SmallPieces {
-  /// Twelve times the least volume that stays, by level; 0, or a level beyond: all stay.
+  /// Twelve times the least volume that stays, by level; where 0 or missing, all stay.
   std::vector<ExactVolume> least;
 };
 

@@ -13,14 +13,14 @@
 
 namespace leafhull {
 
-/// A tile that is done, and where its files are.
+/// A finished tile and where its files are.
 struct StoredTile {
   TileRecord record;
   bool placed = false;  ///< its mesh is in tiles/
-  bool cut = false;     ///< it has lost pieces, and its seam is the one of what is left
+  bool cut = false;     ///< it has lost pieces; its seam is that of the rest
 };
 
-/// The tiles of a forest that are all done, ascending.
+/// The tiles of a forest, all of them done, ascending.
 class StoredTiles {
  public:
   /// @throws Error internal: one is not done.
@@ -31,10 +31,10 @@ class StoredTiles {
   StoredTile& operator[](std::size_t tile) { return tiles_[tile]; }
   ForestFolder& folder() const { return folder_; }
 
-  // From the disk. @throws Error input: the file is damaged.
+  // Both are read from the disk. @throws Error input: the file is damaged.
   Seam seam(std::size_t tile) const;
   std::string mesh_file(std::size_t tile) const;
-  /// `seam` gives up what it holds of the mesh.
+  /// Moves out of `seam` what it holds of the mesh.
   Mesh mesh(std::size_t tile, Seam& seam) const;
 
   /// The tile that owns a vertex which another of this level has borrowed.

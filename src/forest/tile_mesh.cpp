@@ -57,7 +57,7 @@ class GlbReader {
 
   void need(bool holds) const {
     if (holds) return;
-    throw Error(ErrorCode::input, where_ + " is no mesh that leafhull has written", kComputeAgain);
+    throw Error(ErrorCode::input, where_ + " is not a mesh that leafhull wrote", kComputeAgain);
   }
 
   int attribute(const tinygltf::Primitive& primitive, const char* name) const {
@@ -71,7 +71,7 @@ class GlbReader {
     return all[static_cast<std::size_t>(index)];
   }
 
-  /// All that is in the accessor's view.
+  /// All elements in the accessor's view.
   template <class Element>
   std::vector<Element> elements(int index) const {
     const tinygltf::BufferView& view =
@@ -99,7 +99,7 @@ class GlbReader {
   const std::string& where_;
 };
 
-/// Which vertices are connected with one of `seeds`. Triangles come brick by brick, so a few passes
+/// Which vertices are connected to one of `seeds`. Triangles come brick by brick, so a few passes
 /// reach all of a small piece.
 std::vector<char> connected(const Mesh& mesh, const std::vector<std::uint32_t>& seeds) {
   std::vector<char> is_connected(mesh.positions.size(), 0);

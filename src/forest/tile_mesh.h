@@ -12,11 +12,10 @@
 
 namespace leafhull {
 
-/// A mesh out of a GLB that leafhull has written. @throws Error input: it is none.
+/// Reads the mesh of a GLB that leafhull wrote. @throws Error input: it is not one.
 Mesh read_mesh(std::string_view glb, const std::string& where);
 
-/// The content of a tile's file. One that is damaged is removed, so that the tile is computed
-/// again.
+/// The content of a tile's file. A damaged file is removed, so that the tile is computed again.
 /// @throws Error input: it cannot be read, or its checksum differs.
 std::string checked_content(const std::filesystem::path& file, const FileRecord& record);
 

@@ -12,9 +12,9 @@
 
 namespace leafhull {
 
-/// LEVEL/X_Y_Z, as messages and names of files have it.
+/// LEVEL/X_Y_Z, as in messages and file names.
 std::string name_of(const TileId& tile);
-/// Where its mesh is in the finished forest: tiles/LEVEL/X_Y_Z.glb.
+/// The path of the tile's mesh in the finished forest: tiles/LEVEL/X_Y_Z.glb.
 std::string file_of(const TileId& tile);
 
 /// What is known of a tile once it is on the disk.
@@ -31,7 +31,7 @@ struct TileRecord : TileRow {
   Box bounds;    ///< of the mesh, scene units
 };
 
-/// visit(name, fact) for all that a report tells of a tile.
+/// Calls visit(name, fact) for each fact that a report gives of a tile.
 template <class Row, class Visit>
 void for_each_in_row(Row& row, const Visit& visit) {
   visit("level", row.level);
@@ -48,7 +48,7 @@ void for_each_in_row(Row& row, const Visit& visit) {
   visit("rank", row.rank);
 }
 
-/// visit(name, fact) for all that a journal tells of a tile.
+/// Calls visit(name, fact) for each fact that a journal gives of a tile.
 template <class Record, class Visit>
 void for_each_in_record(Record& record, const Visit& visit) {
   for_each_in_row(record, visit);
@@ -63,7 +63,7 @@ void for_each_in_record(Record& record, const Visit& visit) {
 Json json_of(const TileRow& row);
 Json json_of(const TileRecord& record);
 
-/// @throws nlohmann::json::exception: it is no such thing.
+/// @throws nlohmann::json::exception: it is not a tile's record.
 TileRecord tile_record(const Json& json);
 
 void to_json(Json& json, const Vec3d& v);

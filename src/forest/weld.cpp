@@ -53,14 +53,13 @@ Weld::Weld(const StoredTiles& tiles) : tiles_(tiles) {
     box_.include(tile.bounds.high);
   }
   if (vertices_ > std::numeric_limits<std::uint32_t>::max()) {
-    throw Error(
-        ErrorCode::output,
-        std::to_string(vertices_) + " vertices are more than one file's 32-bit indices name",
-        "Leave --single out, or choose larger voxels.");
+    throw Error(ErrorCode::output,
+                std::to_string(vertices_) + " vertices are too many for a file's 32-bit indices",
+                "Leave --single out, or choose larger voxels.");
   }
 }
 
-/// The origin of a tile that is closest to the middle, from where floats are finest.
+/// The tile origin nearest the middle; floats are finest there.
 Vec3d Weld::middle_origin() const {
   const Vec3d middle = (box_.low + box_.high) * 0.5;
   Vec3d origin;
@@ -75,7 +74,7 @@ Vec3d Weld::middle_origin() const {
   return origin;
 }
 
-/// All tiles of a level have one.
+/// The mesh's colour; all tiles of a level have the same.
 std::optional<Vec3f> Weld::colour() const {
   for (std::size_t t = 0; t < first_vertex_.size(); ++t) {
     if (tiles_[t].record.mesh.sha256.empty()) continue;
@@ -97,7 +96,7 @@ void Weld::for_each_vertex(const Write& write) const {
   }
 }
 
-/// Where the vertices of a tile are among all.
+/// The indices of a tile's vertices in the whole mesh.
 std::vector<std::uint32_t> Weld::welded(std::size_t tile, const Seam& seam,
                                         std::size_t size) const {
   constexpr auto kNowhere = std::numeric_limits<std::uint32_t>::max();
@@ -171,7 +170,7 @@ FileRecord weld(const StoredTiles& tiles, const fs::path& file) {
   const auto write = [&](std::ostream& stream) {
     extension == ".ply" ? weld.write_ply(stream) : weld.write_glb(stream);
   };
-  // Known to the forest before it is there, so that a restart can remove it.
+  // Tell the forest of the file before it is there, so that a restart can remove it.
   const auto announce = [&](const FileRecord& record) {
     const Json files{{file.string(), record}};
     folder.write(folder.files(), sealed_text({{"schema", kFilesSchema}, {"files", files}}));

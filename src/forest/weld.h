@@ -7,8 +7,8 @@
 
 namespace leafhull {
 
-/// Writes the tiles of level 0, which are in place, as one mesh in which they share the vertices of
-/// their seams: tiles ascending, each with its own vertices and its triangles in their order.
+/// Writes the tiles of level 0, already in place, as one mesh that shares the vertices of the
+/// seams: tiles ascending, each with its own vertices and its triangles in their order.
 /// @param file .glb or .ply.
 FileRecord weld(const StoredTiles& tiles, const std::filesystem::path& file);
 

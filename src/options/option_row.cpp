@@ -11,7 +11,7 @@
 namespace leafhull {
 namespace {
 
-/// So many whole numbers are told one by one.
+/// Up to this many whole numbers are listed one by one.
 constexpr int kListed = 3;
 
 /// How numbers of one kind are written.
@@ -19,7 +19,7 @@ using Writer = std::string (*)(double);
 
 std::string whole_text(double value) { return std::to_string(std::llround(value)); }
 
-/// As --memory takes it.
+/// A size as --memory takes it.
 std::string size_text(double value) {
   constexpr std::string_view kUnits = " KMGT";
   auto size = std::llround(value);

@@ -69,7 +69,7 @@ std::span<const OptionRow> option_table() {
           {.unit = "R_max", .default_value = "by style"}),
       Row("Shape", "falloff", &Options::falloff, {1, kLargestFalloff},
           "k, the exponent of a kernel"),
-      Row("Shape", "spread", &Options::spread, "s, what --band-low and --band-high count in"),
+      Row("Shape", "spread", &Options::spread, "s, the unit of --band-low and --band-high"),
       Row("Shape", "density", &Options::density,
           "density at the leaves: summed there, or from the lattice"),
       Row("Shape", "band-low", &Options::band_low, kAnyNumber,

@@ -22,7 +22,7 @@ int number_in(const char* variable) {
   return value;
 }
 
-/// How many processes the launcher started that are to find each other, this one among them.
+/// The number of processes, this one included, that the launcher started to find each other.
 int launched_processes() {
   const int by_open_mpi = number_in("OMPI_COMM_WORLD_SIZE");
   if (by_open_mpi > 0) return by_open_mpi;

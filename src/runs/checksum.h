@@ -24,7 +24,7 @@ class Checksum {
   Checksum();
 
   void add(std::string_view bytes);
-  /// What all bytes so far come to; nothing can be added after.
+  /// The record of all bytes so far; nothing can be added after.
   FileRecord record();
 
  private:
@@ -32,9 +32,9 @@ class Checksum {
   std::uint64_t bytes_ = 0;
 };
 
-/// What a file of these bytes would have.
+/// The record of a file with these bytes.
 FileRecord record_of(std::string_view bytes);
-/// What a file has. @throws Error output: the file cannot be read.
+/// The record of a file. @throws Error output: the file cannot be read.
 FileRecord record_of_file(const std::filesystem::path& file);
 
 }  // namespace leafhull

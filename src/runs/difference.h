@@ -9,7 +9,7 @@
 
 namespace leafhull {
 
-/// Where two runs are not the same.
+/// A difference between two runs.
 struct Difference {
   std::vector<std::string> path;  ///< keys and places in lists, from the outermost on
   Json there, here;               ///< discarded: missing

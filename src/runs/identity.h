@@ -8,7 +8,7 @@
 
 namespace leafhull {
 
-// What makes a run this one and no other.
+// What tells a run from any other.
 
 /// Appends the bytes of values; a struct that has padding is given member by member.
 template <class... Values>

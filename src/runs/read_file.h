@@ -14,7 +14,7 @@ namespace leafhull {
 /// 0.
 int read_rest(int descriptor, const std::function<void(std::string_view)>& take);
 
-/// Hands over what is in a file, piece by piece. @throws Error `code`: it cannot be read.
+/// Hands over a file's content, piece by piece. @throws Error `code`: it cannot be read.
 void read_file(const std::filesystem::path& file, ErrorCode code,
                const std::function<void(std::string_view)>& take);
 

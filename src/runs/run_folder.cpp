@@ -32,7 +32,7 @@ bool on_one_mount(const fs::path& a, const fs::path& b) {
          at_a.stx_mnt_id == at_b.stx_mnt_id;  // both 0 where the kernel does not know
 }
 
-/// Without a slash at its end, whose parent would be the folder itself.
+/// The folder without a final slash, with which its parent would be the folder itself.
 fs::path whole_name(const fs::path& folder) {
   fs::path name = fs::absolute(folder).lexically_normal();
   return name.has_filename() ? name : name.parent_path();
@@ -92,7 +92,7 @@ FileRecord RunFolder::write(const fs::path& file, std::string_view bytes) {
 void RunFolder::write_once(const fs::path& file, std::string_view bytes) {
   const TemporaryFile temporary = filled(file, [&](std::ostream& stream) { stream << bytes; });
   int reason = ::link(temporary.path(), file.c_str()) == 0 ? 0 : errno;
-  if (reason != 0 && reason != EEXIST) {  // no second names on this file system
+  if (reason != 0 && reason != EEXIST) {  // no hard links on this file system
     const int renamed =
         ::renameat2(AT_FDCWD, temporary.path(), AT_FDCWD, file.c_str(), RENAME_NOREPLACE);
     reason = renamed == 0 ? 0 : errno;
@@ -106,7 +106,7 @@ void RunFolder::link(const fs::path& file, const fs::path& name) {
   make_folder(name.parent_path());
   static std::atomic<unsigned> count{0};
   const fs::path temporary = unfinished_ / ("." + writer_ + "." + std::to_string(count++) + ".tmp");
-  ::unlink(temporary.c_str());  // of a process that was killed
+  ::unlink(temporary.c_str());  // left by a process that was killed
   if (::link(file.c_str(), temporary.c_str()) != 0) {
     write(name, content_of(file));
     return;

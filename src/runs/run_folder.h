@@ -15,8 +15,8 @@
 
 namespace leafhull {
 
-/// How a run puts files into its folder: each appears whole or not at all, and its content is on
-/// the disk before it has its name. Folders are made where they are missing. Any thread may call.
+/// Puts a run's files into its folder: each appears whole or not at all, and its content is on the
+/// disk before it has its name. Folders are made where they are missing. Any thread may call.
 class RunFolder {
  public:
   /// @param unfinished the folder that files are written in before they get their names.
@@ -35,16 +35,16 @@ class RunFolder {
   FileRecord write(const std::filesystem::path& file, const Fill& fill,
                    const std::function<void(const FileRecord&)>& before = {});
   FileRecord write(const std::filesystem::path& file, std::string_view bytes);
-  /// Writes `file` unless it is there; its name is on the disk then. @throws Error output.
+  /// Writes `file` unless it exists; either way its name is then on the disk. @throws Error output.
   void write_once(const std::filesystem::path& file, std::string_view bytes);
-  /// Gives `file`, a whole one, a second name, or copies it where the file system knows but one.
-  /// @throws Error output, or input: it cannot be read.
+  /// Gives the whole file `file` a second name, or copies it where the file system has no hard
+  /// links. @throws Error output, or input: it cannot be read.
   void link(const std::filesystem::path& file, const std::filesystem::path& name);
 
   /// Makes a folder where it is missing. @throws Error output.
   void make_folder(const std::filesystem::path& folder);
 
-  /// Brings the names of all files so far to the disk: what is said of them after that holds.
+  /// Flushes the names of all files so far to the disk, so that a journal may list them.
   /// @throws Error output.
   void sync();
 
@@ -62,13 +62,13 @@ class RunFolder {
   std::set<std::filesystem::path> made_, unsynced_;  ///< folders
 };
 
-/// Names such as RunFolder gives to files that are being written.
+/// Whether RunFolder gives such names to files that are being written.
 bool is_unfinished(const std::string& name);
 
-/// What is in a folder, ascending; nothing where there is none.
+/// A folder's entries, ascending; none where it does not exist.
 std::vector<std::filesystem::path> entries_of(const std::filesystem::path& folder);
 
-/// Removes a file, or a folder where it is empty. @throws Error output.
+/// Removes a file or an empty folder. @throws Error output.
 void remove_path(const std::filesystem::path& path);
 
 }  // namespace leafhull

@@ -42,7 +42,7 @@ Json unsealed(std::string_view text, std::string_view schema, const std::string&
     throw Error(ErrorCode::input, where + " " + why, remedy);
   };
   Json object = Json::parse(text, nullptr, false);
-  if (object.is_discarded()) refuse("is damaged: it is no JSON");
+  if (object.is_discarded()) refuse("is damaged: it is not JSON");
   const std::string found = schema_of(object);
   const std::string wanted = dumped(Json(schema));
   if (found != wanted) {

@@ -63,7 +63,7 @@ void SealedLines::truncate(off_t size) {
 
 void SealedLines::append(Json object) {
   const std::string text = dumped(sealed(std::move(object))) + "\n";
-  truncate(size_);  // of what a crash has left behind the last whole line
+  truncate(size_);  // drops what a crash left behind the last whole line
   std::size_t done = 0;
   while (done < text.size()) {
     const ssize_t count = ::pwrite(descriptor_, text.data() + done, text.size() - done,

@@ -17,7 +17,7 @@ namespace leafhull {
 class SealedLines {
  public:
   /// Opens or creates `file`, keeps other writers out of it, and reads it.
-  /// @param rival what else may have it, for the error.
+  /// @param rival who else may have the file, for the error.
   /// @throws Error output: it cannot be written; usage: another process has it.
   SealedLines(std::filesystem::path file, const std::string& rival);
   ~SealedLines();
@@ -26,7 +26,7 @@ class SealedLines {
 
   /// The whole lines that it held when it was opened, as they stood there.
   const std::vector<std::string>& lines() const { return lines_; }
-  /// Whether there is anything in it, be it no whole line.
+  /// Whether the file held nothing, not even part of a line.
   bool empty() const { return empty_; }
 
   /// @throws Error output; the file is then as before.
@@ -38,7 +38,7 @@ class SealedLines {
 
   std::filesystem::path file_;
   int descriptor_ = -1;
-  off_t size_ = 0;  ///< of the whole lines
+  off_t size_ = 0;  ///< bytes of the whole lines
   bool empty_ = true;
   std::vector<std::string> lines_;
 };

@@ -16,7 +16,7 @@ std::size_t skip_blanks(std::string_view line, char separator, std::size_t at) {
   return at;
 }
 
-/// The text between quotes, the first of them at `at`, which then stands behind the last.
+/// The text between quotes. `at` is at the first quote and then moves behind the last.
 std::string_view quoted_field(std::string& line, std::size_t& at) {
   const std::size_t begin = ++at;
   std::size_t end = begin;
@@ -39,7 +39,7 @@ char separator_of(std::string_view line) {
     const std::size_t kind = kSeparators.find(c);
     if (!quoted && kind != kSeparators.npos) ++counts[kind];
   }
-  // Tabs beside another separator are blanks.
+  // Beside another separator, tabs are blanks.
   if (counts[0] > 0 || counts[1] > 0) counts[2] = 0;
   return kSeparators[std::ranges::max_element(counts) - counts.begin()];
 }

@@ -69,7 +69,7 @@ double number(std::string_view text, int column) {
       "Write numbers such as 1.5."};
 }
 
-/// The columns of a line that names none.
+/// The columns of a file that names none, by their count.
 std::vector<int> usual_columns(std::size_t count) {
   std::vector<int> columns = {kModel, kX, kY, kZ};
   if (count > 4) columns.insert(columns.end(), {kQx, kQy, kQz, kQw});
@@ -97,7 +97,7 @@ bool has(const std::vector<int>& columns, Group group) {
   return named > 0;
 }
 
-/// Which of several groups is named, or -1.
+/// Which of several groups is named; -1: none.
 template <std::size_t kCount>
 int kind_of(const std::vector<int>& columns, const std::array<Group, kCount>& groups) {
   int kind = -1;

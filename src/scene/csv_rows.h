@@ -9,16 +9,16 @@
 
 namespace leafhull {
 
-/// Reads the lines of a .csv one after the other. The first tells the separator and names the
-/// columns, in any order; or its second field is a number, and the columns are known by their
+/// Reads the lines of a .csv file one after the other. The first line gives the separator and names
+/// the columns in any order; where its second field is a number, the columns follow from their
 /// count.
 class CsvRows {
  public:
-  /// False where `line` names the columns. It is rewritten.
+  /// Returns false where `line` names the columns. `line` is rewritten.
   /// @throws BadRow.
   bool read(std::string& line, ScatterRow& row);
 
-  /// Names of columns that say nothing here, for a warning; else empty.
+  /// Names of the columns that were ignored, for a warning; else empty.
   std::string passed_over() const;
 
  private:

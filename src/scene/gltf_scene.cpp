@@ -41,14 +41,14 @@ PlacedTree to_tree(const Transform& to_world) {
   return tree;
 }
 
-/// Takes the placed meshes of a file, one after the other, for trees: first a look at all of them,
-/// which tells what leaves are, then each.
+/// Collects a file's placed meshes as trees: a first pass over all of them finds out what leaves
+/// are, then each is taken.
 class TreeCollector {
  public:
   TreeCollector(SceneBuilder& builder, const LeafOptions& leaves)
       : builder_(builder), leaves_(leaves) {}
 
-  /// The copies of a node are alike.
+  /// Notes the instances of a node, whose copies are alike.
   void survey(const GltfMeshes& meshes, const PlacedMesh& placed) {
     if (placed.copy.value_or(0) != 0) return;
     nodes_[placed.node] = instances_.size();
@@ -81,7 +81,7 @@ class TreeCollector {
   }
 
  private:
-  /// Looks for leaves. The node's name has its say: one mesh may be several models.
+  /// Looks for leaves. The node's name counts too, so one mesh may be several models.
   void look_at(const GltfMeshes& meshes, const PlacedMesh& placed) {
     node_ = placed.node;
     is_leaf_.clear();
@@ -113,12 +113,12 @@ class TreeCollector {
   SceneBuilder& builder_;
   const LeafOptions& leaves_;
   std::vector<Instance> instances_;     ///< the primitives of each node
-  std::map<int, std::size_t> nodes_;    ///< where a node's begin
+  std::map<int, std::size_t> nodes_;    ///< where a node's instances begin
   std::shared_ptr<LeafChoice> choice_;  ///< of `instances_`
   std::map<std::pair<int, std::vector<bool>>, std::uint32_t> models_;  ///< by mesh and its leaves
   std::vector<std::size_t> leaf_vertices_of_models_;
 
-  // Of the node at hand.
+  // The node at hand.
   int node_ = -1;
   std::vector<bool> is_leaf_;
   std::size_t leaf_vertices_ = 0;

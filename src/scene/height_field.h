@@ -8,7 +8,7 @@
 
 namespace leafhull {
 
-/// Heights between the pixels of a picture, whose corners lie on those of the area.
+/// Heights interpolated between the pixels of a picture whose corners are those of the area.
 class HeightField {
  public:
   /// @throws Error input: the picture cannot be read.

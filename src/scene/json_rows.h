@@ -8,13 +8,13 @@
 
 namespace leafhull {
 
-/// Reads the lines of a .jsonl one after the other, an object each.
+/// Reads the lines of a .jsonl file one after the other, each an object.
 class JsonRows {
  public:
   /// @returns true. @throws BadRow.
   bool read(std::string& line, ScatterRow& row);
 
-  /// Names of members that say nothing here, for a warning; else empty.
+  /// Names of the members that were ignored, for a warning; else empty.
   std::string passed_over() const;
 
  private:

@@ -16,7 +16,7 @@ std::ifstream open_text(const std::filesystem::path& file);
 /// over, as are a byte order mark and carriage returns.
 class Lines {
  public:
-  /// @param file as messages call it.
+  /// @param file the name that messages use.
   Lines(std::istream& stream, const std::filesystem::path& file) : file_(file), stream_(stream) {}
 
   /// @throws Error input: the file cannot be read, or is UTF-16 text.

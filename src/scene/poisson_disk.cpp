@@ -10,16 +10,16 @@
 namespace leafhull {
 namespace {
 
-/// Bridson's k is 30; these are in a square, of which his annulus takes 3 pi / 16. Inside a narrow
-/// area there is more of it.
+/// Tries per point. Bridson's k is 30, in an annulus; these are in a square, of which the annulus
+/// takes 3 pi / 16, or more inside a narrow area.
 constexpr int kTries = 50;
 
-/// The distance of a full pattern in units of sqrt(area / count): such that few points are too
-/// many.
+/// The distance of a full pattern in units of sqrt(area / count), chosen so that few points are
+/// left over.
 constexpr double kDistance = 0.78;
 constexpr double kCloser = 0.98;
 
-/// Points in cells so small that none holds two, with a margin of two cells that hold none.
+/// Points in cells too small to hold two, with a margin of two empty cells.
 class Grid {
  public:
   Grid(Vec2d area, double distance)
@@ -33,7 +33,7 @@ class Grid {
     }
   }
 
-  /// Adds a point of the first quadrant unless it is outside or too near to another.
+  /// Adds a point of the first quadrant unless it is outside or too near another.
   bool add(Vec2d p, std::vector<Vec2d>& points) {
     if (p.x >= area_.x || p.y >= area_.y) return false;
     const std::int64_t cell = cell_of(p.y) * columns_ + cell_of(p.x);
@@ -52,7 +52,7 @@ class Grid {
   static constexpr std::uint32_t kNone = ~0u;
   static constexpr std::int64_t kMargin = 2;
 
-  /// The cells that a point's disk reaches, those first that are most probably in its way.
+  /// The cells that a point's disk reaches, those most likely to hold a conflict first.
   struct Step {
     int row, column;
   };
@@ -108,7 +108,7 @@ std::vector<Vec2d> fill(Vec2d area, double distance, Random& random) {
   return points;
 }
 
-/// Keeps `count` of the points, each set of them as likely, in their order.
+/// Keeps `count` of the points in their order; each subset is equally likely.
 /// Source: Knuth, The Art of Computer Programming 2, 3.4.2, Algorithm S.
 void thin_out(std::vector<Vec2d>& points, std::size_t count, Random& random) {
   std::size_t kept = 0;

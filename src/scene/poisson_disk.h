@@ -11,7 +11,7 @@ namespace leafhull {
 
 struct Disks {
   std::vector<Vec2d> centres;  ///< within [0, area.x) x [0, area.y)
-  double distance = 0;         ///< that any two of them keep
+  double distance = 0;         ///< between any two centres, at least
 };
 
 /// Exactly `count` points of a Poisson-disk pattern that fills a rectangle; their distance is about

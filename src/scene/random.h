@@ -7,16 +7,16 @@
 
 namespace leafhull {
 
-/// Numbers that are the same with every standard library, whose distributions are not.
+/// Random numbers that are the same with every standard library, unlike its distributions.
 class Random {
  public:
   explicit Random(std::uint64_t seed) : engine_(seed) {}
 
-  /// From [0, 1).
+  /// A number in [0, 1).
   double number() { return static_cast<double>(engine_() >> 11) * 0x1p-53; }
   double number(double low, double high) { return low + (high - low) * number(); }
 
-  /// Below `count`, which is far below 2^53.
+  /// An index below `count`, which must be far below 2^53.
   std::size_t index(std::size_t count) {
     return static_cast<std::size_t>(number() * static_cast<double>(count));
   }

@@ -12,7 +12,7 @@ namespace leafhull {
 Scene read_csv_scene(const std::filesystem::path& file);
 Scene read_jsonl_scene(const std::filesystem::path& file);
 
-/// As read_csv_scene, of the text of a file in that place.
+/// As read_csv_scene, for text that stands for a file at that place.
 Scene read_csv_text(std::istream& text, const std::filesystem::path& file);
 
 }  // namespace leafhull

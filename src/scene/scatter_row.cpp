@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kHalfDegree = std::numbers::pi / 360;
 
-/// First `b`, then `a`.
+/// Rotates by `b` first, then by `a`.
 Rotation operator*(const Rotation& a, const Rotation& b) {
   return {
       a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y, a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x,

@@ -12,10 +12,10 @@ struct Rotation {
   double x = 0, y = 0, z = 0, w = 1;
 };
 
-/// About +y, right-handed.
+/// A rotation about +y, right-handed.
 Rotation rotation_of_yaw(double degrees);
 
-/// About x, then y, then z: the Euler angles XYZ of Blender. Degrees.
+/// A rotation about x, then y, then z, in degrees: the Euler angles XYZ of Blender.
 Rotation rotation_of_angles(Vec3d degrees);
 
 /// A line of a scatter file.
@@ -26,12 +26,12 @@ struct ScatterRow {
   Vec3d scale{1, 1, 1};
 };
 
-/// What is wrong with a line, for its reader, who knows where it is.
+/// What is wrong with a line; the line's reader knows where it is.
 struct BadRow {
   std::string what, remedy;
 };
 
-/// The tree of a row, of no model yet: scaled, rotated, moved.
+/// The tree of a row, scaled, rotated and moved; its model is set later.
 PlacedTree placed(const ScatterRow& row);
 
 }  // namespace leafhull

@@ -11,8 +11,8 @@
 namespace leafhull {
 namespace {
 
-/// Of a volume to the product of the edges that span it: below, they lie in one plane, as far as
-/// floats can tell.
+/// The ratio of a volume to the product of the edges that span it, below which they lie in one
+/// plane, as far as floats can tell.
 constexpr double kFlat = 1e-6;
 
 constexpr const char* kWhySkipped = "scale is zero or a value is not finite";

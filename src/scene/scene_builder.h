@@ -16,7 +16,7 @@ class SceneBuilder {
   explicit SceneBuilder(const std::filesystem::path& file) { scene_.path = file; }
 
   /// Adds a tree of the model that `model` numbers; skips and counts it where its map is not finite
-  /// or flattens it. `place` says where it is in the file. Both are asked only where it matters.
+  /// or flattens it. `place` says where it is in the file. Both are called only where needed.
   /// @throws Error input: more trees than an int counts.
   template <class Model, class Place>
   void add(PlacedTree tree, const Model& model, const Place& place) {
@@ -32,7 +32,7 @@ class SceneBuilder {
   /// Gives the model a name that no other has, made from `name`. @returns its number.
   std::uint32_t add_model(SceneModel model, const std::string& name);
 
-  /// A warning, after the file's name.
+  /// Adds a warning, after the file's name.
   void warn(const std::string& what);
 
   /// @throws Error input: no tree is left.

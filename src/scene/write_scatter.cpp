@@ -51,7 +51,7 @@ void check(const ScatterOptions& options) {
   check_rows(scatter_table(), options);
 }
 
-/// Of the leaves, along x and z, in the mean of all trees.
+/// The mean width of the leaves along x and z, over all trees.
 double mean_crown_width(const ScatterOptions& options) {
   double sum = 0;
   for (const fs::path& tree : options.trees) {
@@ -74,7 +74,7 @@ Vec2d area_of(const ScatterOptions& options) {
   return {side, side};
 }
 
-/// A model's name in the scatter file: its path from there.
+/// A model's name in the scatter file: its path relative to that file.
 std::string model_name(const fs::path& tree, const fs::path& scatter_file) {
   // Links on the way are followed, so that .. leads back; the tree keeps its name.
   const auto real_folder = [](const fs::path& file) {
@@ -90,7 +90,7 @@ std::string model_name(const fs::path& tree, const fs::path& scatter_file) {
   return csv_field(name);
 }
 
-/// As many decimals as tell a ten-thousandth of `size`.
+/// The number of decimals that resolve a ten-thousandth of `size`.
 int decimals_for(double size) {
   return std::clamp(4 - static_cast<int>(std::floor(std::log10(size))), 0, 15);
 }

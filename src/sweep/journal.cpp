@@ -13,7 +13,7 @@
 namespace leafhull {
 namespace {
 
-/// What every journal of a sweep has in its first line, be it damaged or of another version.
+/// Every journal of a sweep has this in its first line, even one damaged or of another version.
 constexpr std::string_view kAnySchema = "leafhull-sweep-journal/";
 
 bool is_row(const Json& line) {

@@ -10,7 +10,7 @@
 
 namespace leafhull {
 
-/// What is done of a sweep: sealed lines, the first saying which sweep it is, every other one
+/// The progress of a sweep: sealed lines, the first saying which sweep it is, every other one
 /// holding a combination. A line that is damaged does not count.
 class Journal {
  public:
@@ -19,7 +19,7 @@ class Journal {
   /// it.
   explicit Journal(const std::filesystem::path& file);
 
-  /// Null in a new journal.
+  /// The header; null in a new journal.
   const Json& header() const { return header_; }
   /// Whether the header is whole and of this version, or the journal is new.
   bool is_readable() const { return is_readable_; }

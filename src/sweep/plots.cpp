@@ -15,7 +15,7 @@
 namespace leafhull {
 namespace {
 
-/// More lines than this are too many to tell apart; then so few are drawn that it is easy.
+/// More than kMostLines lines are too many to tell apart; then at most kFewLines are drawn.
 constexpr std::size_t kMostLines = 12, kFewLines = 6;
 
 double number(std::string_view text) {
@@ -48,7 +48,7 @@ Values drawn_values(const SweepPlan& plan, std::size_t axis) {
   const auto lines = [&] {
     return std::accumulate(counts.begin(), counts.end(), std::size_t{1}, std::multiplies<>());
   };
-  // Numbers give way before names, which have nothing between them.
+  // Leave out numbers before names: only numbers can be judged from those around them.
   const auto rank = [&](std::size_t i) {
     return std::pair(counts[i] > 2 && takes_number(*plan.swept[i].row), counts[i]);
   };
@@ -74,7 +74,7 @@ bool is_drawn(const std::vector<std::string_view>& values, const Values& drawn) 
   return true;
 }
 
-/// What the options other than the one along the axis are.
+/// The values of all options but the one along the axis.
 std::string line_name(const SweepPlan& plan, std::size_t axis, std::size_t combination) {
   std::vector<std::string> others = labels(plan, combination);
   others.erase(others.begin() + static_cast<std::ptrdiff_t>(axis));

@@ -18,7 +18,7 @@ struct Plot {
   Chart chart;
 };
 
-/// For every swept number, dilated voxels and off-site vertices over it: a line for each
+/// Charts of dilated voxels and off-site vertices over every swept number: a line for each
 /// combination of the other swept options, or for some where there are more than a dozen, as the
 /// title then says. Source: Figures 11, 13 and 15.
 std::vector<Plot> plots(const SweepPlan& plan, const std::map<std::size_t, Json>& rows,

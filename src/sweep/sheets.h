@@ -14,10 +14,10 @@ struct Sheet {
   std::size_t begin = 0, end = 0;  ///< the combinations on it
 };
 
-/// Pages that picture viewers open, together every combination.
+/// The pages, which hold every combination; each is small enough for picture viewers.
 std::vector<Sheet> sheets(const SweepPlan& plan);
 
-/// Pictures side by side: the values of the last swept option where they fit.
+/// Pictures in a row: one for each value of the last swept option, where they fit.
 int sheet_columns(const SweepPlan& plan);
 
 /// "birch.glb: threshold 1.5 to 2.5, method isotropic, controlled".

@@ -12,9 +12,9 @@ namespace leafhull {
 namespace {
 
 constexpr std::array kErosions{0.02, 0.12, 0.25};
-/// Crown units. What dilations a tree can have is read from shapes with these.
+/// Radii in crown units; shapes with these tell which dilations a tree can have.
 constexpr std::array kRadii{1.5, 3.5, 9.0};
-/// Neighbours that differ by less in volume than this factor differ in erosion too, by so much.
+/// Neighbours whose volumes differ by less than this factor also differ in erosion, by this step.
 constexpr double kClearlyLarger = 1.15, kErosionStep = 0.05;
 constexpr int kPictureEdge = 320;
 
@@ -39,8 +39,8 @@ double volume(const Box& box) { return box.size().x * box.size().y * box.size().
 
 struct DilationRange {
   double least = 1, most = 0;
-  /// The dilation whose volume divides the range's evenly, `share` of the way from the least. Of a
-  /// shape's voxels those with a leaf stay the same, so that its volume goes with 1 / (1 - D).
+  /// The dilation `share` of the way from the least, at equal factors of volume. A shape's voxels
+  /// with a leaf stay the same, so its volume varies as 1 / (1 - D).
   double at(double share) const {
     const double empty = std::pow(1 - least, 1 - share) * std::pow(1 - most, share);
     return std::round(1000 * (1 - empty)) / 1000;
@@ -48,7 +48,7 @@ struct DilationRange {
   bool tells_apart() const { return (1 - least) > kClearlyLarger * kClearlyLarger * (1 - most); }
 };
 
-/// What dilations go with each erosion.
+/// The range of dilations that goes with each erosion.
 std::vector<DilationRange> ranges(const LeafSet& leaves, const Options& options,
                                   const std::vector<double>& erosions, Device& device,
                                   const Progress& progress) {
@@ -75,7 +75,7 @@ std::vector<DilationRange> ranges(const LeafSet& leaves, const Options& options,
   return found;
 }
 
-/// Erosions row by row, dilations rising along each.
+/// The suggestions: a row for each erosion, dilations rising along it.
 std::vector<Suggestion> choices(const LeafSet& leaves, const Options& options, Device& device,
                                 const Progress& progress) {
   constexpr std::size_t kColumns = kRadii.size();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A sweep: the folder, what is done of it, and the rest.
+// A sweep: its folder, what is done and what remains.
 #include "leafhull/sweep.h"
 
 #include <algorithm>
@@ -27,7 +27,7 @@ namespace fs = std::filesystem;
 
 constexpr int kPictureWidth = 256, kPictureHeight = 256;
 
-/// What is where in a sweep's folder.
+/// The layout of a sweep's folder.
 class Files : public RunFolder {
  public:
   explicit Files(const fs::path& folder) : RunFolder(folder, "sweep"), folder_(folder) {}
@@ -76,7 +76,7 @@ std::vector<fs::path> results(const Files& files, const SweepPlan& plan) {
   return all;
 }
 
-/// Where there is no journal, files of a sweep's names are somebody else's.
+/// Checks that, without a journal, no file has a sweep's names: it would be somebody else's.
 void check_nothing_is_lost(const Files& files, const SweepPlan& plan) {
   for (const fs::path& file : results(files, plan)) {
     if (!fs::exists(fs::symlink_status(file))) continue;
@@ -146,7 +146,7 @@ void add_times(std::vector<StageTime>& sums, const std::vector<StageTime>& times
   }
 }
 
-/// Extracts what remains; each combination's picture, then its line of the journal.
+/// Extracts what remains; each combination's picture is written before its line of the journal.
 std::vector<StageTime> extract_remaining(const LeafSet& leaves, const SweepPlan& plan,
                                          Device& device, Files& files, Journal& journal,
                                          const SweepProgress& progress) {

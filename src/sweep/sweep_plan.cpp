@@ -43,7 +43,7 @@ Json option_values(const SweepPlan& plan) {
   return values;
 }
 
-/// What a list of values is in a sentence.
+/// A list of values as a sentence names it.
 std::string listed(const Json& values) {
   constexpr std::size_t kMost = 60;
   std::string text;
@@ -69,7 +69,7 @@ std::string words_of(const Difference& differs, const Json& there, const Json& h
   return "its --" + option + " is " + values_in(there) + ", not " + values_in(here);
 }
 
-/// What a file name can hold.
+/// Text for a file name, with - for spaces.
 std::string file_text(std::string text) {
   std::replace(text.begin(), text.end(), ' ', '-');
   return text;

@@ -13,7 +13,7 @@ namespace leafhull {
 
 inline constexpr std::string_view kJournalSchema = "leafhull-sweep-journal/2";
 
-/// What makes a sweep this one: the leaves, leafhull's version, the device, and the values of every
+/// The identity of a sweep: the leaves, leafhull's version, the device, and the values of every
 /// option over all combinations.
 Json identity(const LeafSet& leaves, const SweepPlan& plan, const DeviceInfo& device);
 

@@ -25,7 +25,7 @@ std::string key_of(const SweptOption& option) {
   return key;
 }
 
-/// Quoted as RFC 4180 says where it has to be.
+/// A cell of the table, quoted as RFC 4180 says where it has to be.
 std::string cell(const Json& value) {
   if (value.is_null()) return "";
   if (!value.is_string()) return value.dump();
@@ -92,7 +92,7 @@ Json row_of(std::size_t combination, const std::string& picture, const SeriesEnt
   for (const char* part : {"parameters", "metrics", "counts", "density", "seconds"}) {
     row[part] = std::move(whole[part]);
   }
-  // What was evaluated served several combinations, others where the sweep was cut off.
+  // An evaluation serves several combinations, and other ones where the sweep was cut off.
   row["counts"].erase("evaluated_voxels");
   row["counts"].erase("evaluated_pairs");
   if (!entry.failure.empty()) {

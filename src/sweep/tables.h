@@ -11,7 +11,7 @@
 namespace leafhull {
 
 /// A combination's line of the journal: parameters, counts, density, metrics and seconds as in a
-/// report; null where it could not be computed, which `failure` says why.
+/// report; null where it could not be computed, and then `failure` says why.
 Json row_of(std::size_t combination, const std::string& picture, const SeriesEntry& entry);
 
 /// Why a row's combination could not be computed; empty where it was.

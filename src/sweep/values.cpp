@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the text of a swept option stands for.
+// The values that the text of a swept option stands for.
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -16,9 +16,9 @@ namespace leafhull {
 namespace {
 
 constexpr double kMostCombinations = 100'000;
-/// By this much of a step a range's last value may miss its end.
+/// The last value of a range may miss its end by this fraction of a step.
 constexpr double kSlack = 1e-9;
-/// Significant digits of the largest number of a range: what rounding adds lies below.
+/// Significant digits kept of a range's largest number; rounding errors lie below them.
 constexpr int kDigits = 14;
 
 enum class Kind { fixed, number, name };
@@ -83,7 +83,7 @@ std::string shortest(double value) {
   return {buffer.data(), end};
 }
 
-/// `value` without the digits that only binary fractions have, in a range that reaches to `scale`.
+/// `value` without the digits of binary rounding, in a range that reaches to `scale`.
 double clean(double value, double scale) {
   const int decimals = std::max(0, kDigits - 1 - static_cast<int>(std::floor(std::log10(scale))));
   std::array<char, 400> buffer;  // the largest double has 309 digits before the point
@@ -125,7 +125,7 @@ void refuse_twice(const OptionRow& row, std::string_view text,
   }
 }
 
-/// Takes the % from every number. @return whether they had one.
+/// Removes the % from every number. @return whether they had one.
 bool take_percent(const OptionRow& row, std::string_view text,
                   std::vector<std::string_view>& parts) {
   const auto has_percent = [](std::string_view part) { return part.ends_with('%'); };

@@ -40,7 +40,7 @@ class Place {
     return {device_, placed_kernels(level_, runs, lattice_, kernel), level_.options.falloff};
   }
 
-  /// The kernels that N is made of.
+  /// The density N of the kernels of `runs`.
   DensityFunction density(std::span<const KernelRun> runs) const {
     if (level_.scope == ControlScope::model) {
       return density(runs, [](const ForestModel& model, std::size_t j, std::size_t) {

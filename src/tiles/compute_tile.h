@@ -10,8 +10,8 @@
 
 namespace leafhull {
 
-/// The surface N = T of all trees' densities together in a tile. It depends on the scene and the
-/// level alone: another edge gives the same vertices and triangles.
+/// A tile's part of the surface N = T, with N summed over all trees. It depends on the scene and
+/// the level alone: another edge gives the same vertices and triangles.
 TileSurface compute_tile(const ForestLevel& level, const TileTask& task, Device& device);
 
 /// N_iso, neighbours included, at the leaf points in a tile.

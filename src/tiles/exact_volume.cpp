@@ -10,7 +10,7 @@
 namespace leafhull {
 namespace {
 
-/// Modulo 2^128: sums and products may pass over it on the way, the volume does not.
+/// Counts modulo 2^128: sums and products on the way may exceed it, the volume does not.
 __extension__ typedef unsigned __int128 Wide;  // NOLINT(modernize-use-using)
 
 struct WideVec {
@@ -23,7 +23,7 @@ WideVec cross(WideVec a, WideVec b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-/// From the origin of the global lattice.
+/// A point relative to the origin of the global lattice.
 WideVec exact(Vec3f p, const Lattice& lattice) {
   const auto at = [](std::int64_t anchor, float v) {
     const auto units = static_cast<std::int64_t>(static_cast<double>(v) * 0x1p14);

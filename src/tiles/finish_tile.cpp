@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kSnapSteps = 12;
 
-/// Cells of the global lattice.
+/// A cell's coordinates in the global lattice.
 Coord global(Coord local, const Lattice& lattice) {
   return {static_cast<std::int32_t>(lattice.anchor.x + local.x),
           static_cast<std::int32_t>(lattice.anchor.y + local.y),
@@ -38,8 +38,8 @@ class Border {
   const SampleBox& own_;
 };
 
-/// Takes out the pieces that `stays` denies, `root` telling the piece of each point; the order is
-/// kept.
+/// Removes the pieces for which `stays` is false; `root` gives the piece of each point. The order
+/// is kept.
 template <class Stays>
 void keep(OwnedPolygons& part, std::vector<std::uint32_t>& root, Stays&& stays) {
   Polygons& polygons = part.polygons;

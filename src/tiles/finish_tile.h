@@ -8,8 +8,8 @@
 
 namespace leafhull {
 
-/// The polygons of a tile's cells as its surface: pieces that are small and end within the tile are
-/// dropped, vertices moved onto N = T, and what reaches a seam is listed.
+/// Makes a tile's surface from the polygons of its cells: drops small pieces that end within the
+/// tile, moves vertices onto N = T, and lists what reaches a seam.
 void finish_tile(OwnedPolygons part, DensityFunction& density, const ForestLevel& level,
                  const Lattice& lattice, const SampleBox& own, TileSurface& surface);
 

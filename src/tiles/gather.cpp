@@ -19,7 +19,7 @@ bool apart(const Box& a, const Box& b, double reach) {
          along(a.low.y, a.high.y, b.low.y, b.high.y) || along(a.low.z, a.high.z, b.low.z, b.high.z);
 }
 
-/// visit(map, model, j, at) for every kernel of the runs.
+/// Calls visit(map, model, j, at) for every kernel of the runs.
 template <class Visit>
 void for_each_kernel(const ForestLevel& level, std::span<const KernelRun> runs, Visit&& visit) {
   std::vector<std::size_t> first{0};

@@ -17,35 +17,35 @@ struct KernelRun {
   std::uint32_t tree, first, end;
 };
 
-/// The kernels of `trees` whose support may reach `box` (scene units), and some beyond it, in the
-/// order of trees and then of their models: one order, whoever asks.
+/// The kernels of `trees` whose support may reach `box` (scene units), and some beyond it, ordered
+/// by tree and then as in its model, whoever asks.
 std::vector<KernelRun> runs_near(const ForestLevel& level, std::span<const std::uint32_t> trees,
                                  const Box& box);
 
 std::size_t count(std::span<const KernelRun> runs);
 
-/// Their centres, in scene units.
+/// The kernels' centres, in scene units.
 std::vector<Vec3d> centres_of(const ForestLevel& level, std::span<const KernelRun> runs);
 
-/// How much each counts (weight_of).
+/// The kernels' weights (weight_of).
 std::vector<std::uint64_t> weights_of(const ForestLevel& level, std::span<const KernelRun> runs);
 
-/// Places on the leaves of `trees`, in scene units, and how much each counts.
+/// Places on the leaves of `trees`, in scene units, and their weights.
 struct PlacedSamples {
   std::vector<Vec3d> points;
   std::vector<std::uint64_t> weights;
   std::vector<bool> in_solid;  ///< as in LeafPoints
 };
 
-/// Those of the trees' samples that lie in `box`.
+/// The trees' samples that lie in `box`.
 PlacedSamples samples_in(const ForestLevel& level, std::span<const std::uint32_t> trees,
                          const Box& box);
 
-/// Which kernel of the model stands at place `j` of it and `at` of all runs.
+/// The kernel at index `j` of its model and index `at` over all runs.
 using KernelOf = std::function<Kernel(const ForestModel& model, std::size_t j, std::size_t at)>;
 
-/// The kernels on a lattice, hashed by cells as large as the level's reach on the one lattice of
-/// such cells, so that N is the same from whatever runs it is summed.
+/// The kernels on a lattice, hashed by cells as large as the level's reach. All tiles share one
+/// lattice of such cells, so N is the same whatever runs it is summed from.
 KernelSet placed_kernels(const ForestLevel& level, std::span<const KernelRun> runs,
                          const Lattice& lattice, const KernelOf& kernel);
 

@@ -22,7 +22,7 @@ constexpr std::uint32_t kGroup = 64;
 constexpr int kShareBits = 40, kAreaBits = 10;
 /// A model is not thinned below this many leaf vertices.
 constexpr std::size_t kFewest = 64;
-/// Along a model whose volume is taken, so that this needs little memory.
+/// The most voxels along a model while its volume is taken, to save memory.
 constexpr double kMostVoxels = 128;
 
 /// The leaf vertices of a level; those of a model are in Morton order, so that every n-th is spread
@@ -69,7 +69,7 @@ Options alone(const LeafSet& leaves, int level, Options resolved) {
   resolved.voxel_size.reset();
   resolved.radius_max = radius_max_in_model_units(leaves, resolved) * std::ldexp(1.0, level);
   resolved.radius_unit = RadiusUnit::model;
-  resolved.dilation.reset();  // which has found R_max
+  resolved.dilation.reset();  // it has found R_max
   return resolve(resolved);
 }
 
@@ -147,7 +147,7 @@ double threshold_of(const ForestLevel& level, std::span<const ModelUse> uses,
     if (options.points == PointSource::vertices) {
       return threshold_for_coverage(densities, *options.coverage);
     }
-    // Where all count alike, each counts for one: as in an extraction.
+    // Where all weights are equal, each becomes one, as in an extraction.
     std::uint64_t unit = 0;
     for (const WeightedDensity& d : densities) unit = std::gcd(unit, d.weight);
     for (WeightedDensity& d : densities) d.weight /= unit;
@@ -279,7 +279,7 @@ ForestLevel prepare_level(int number, const Scene& scene, std::span<const LeafSe
   level.sample_unit = area / samples;
   level.threshold = threshold_of(level, uses, finest);
   level.colour = mean_colour(models, uses);
-  // A voxel, and what R_max has grown by since level 0.
+  // The error is a voxel plus the growth of R_max since level 0.
   level.error = level.voxel_size + radius_max * (1 - std::ldexp(1.0, -number));
   return level;
 }
@@ -308,7 +308,7 @@ double threshold_for_coverage(std::vector<WeightedDensity>& densities, double co
   const auto below = std::min(
       count - 1,
       static_cast<std::uint64_t>(std::llround((1 - coverage) * static_cast<double>(count))));
-  std::uint64_t rank = 0;  // of the first that has a density
+  std::uint64_t rank = 0;  // the rank of the first with a density
   std::size_t at = 0;
   while (rank + densities[at].weight <= below) rank += densities[at++].weight;
   const auto here = static_cast<double>(densities[at].density);

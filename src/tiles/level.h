@@ -26,39 +26,38 @@ struct KernelGroup {
 struct ForestModel {
   std::vector<LeafPoint> leaves;
   std::vector<Kernel> kernels;  ///< one per leaf point; their radii controlled within the model
-  std::vector<float> isotropic_density;  ///< N_iso there, of the tree alone
-  std::vector<float> density;            ///< N at the places on its leaves, of the tree alone
-  std::vector<Vec3d> samples;            ///< those places
-  std::vector<bool> in_solid;            ///< of each, as in LeafPoints
-  double area = 0;                       ///< of its leaf points; 0 where they are vertices
+  std::vector<float> isotropic_density;  ///< N_iso at the leaf points, of the tree alone
+  std::vector<float> density;            ///< N at `samples`, of the tree alone
+  std::vector<Vec3d> samples;            ///< places on its leaves
+  std::vector<bool> in_solid;            ///< for each sample, as in LeafPoints
+  double area = 0;                       ///< of its leaf points in all; 0 where they are vertices
   double radius_max = 0;                 ///< R_max
   std::vector<KernelGroup> groups;
-  Box bounds;        ///< of the centres
-  Box crown;         ///< the leaves' but for strays
+  Box bounds;        ///< of the kernels' centres
+  Box crown;         ///< the box of the leaves without strays
   double reach = 0;  ///< the largest radius, R_max included
 };
 
 /// A level of abstraction.
 ///
-/// Level L stands for 4^L leaf vertices by one of them, with 2^L times the radius: what is far is
-/// seen with fewer and larger leaves, on voxels 2^L times as large. So each level costs a quarter
-/// of the one below. Source: Cook, Halstead, Planck and Ryu, "Stochastic Simplification of
-/// Aggregate Detail", 2007.
+/// At level L one leaf vertex stands for 4^L, with 2^L times the radius: far trees are seen with
+/// fewer and larger leaves, on voxels 2^L times as large. So each level costs a quarter of the one
+/// below. Source: Cook, Halstead, Planck and Ryu, "Stochastic Simplification of Aggregate Detail",
+/// 2007.
 struct ForestLevel {
   int level = 0;
-  std::span<const PlacedTree> trees;  ///< of the scene, which outlives the level
+  std::span<const PlacedTree> trees;  ///< the scene's, which outlives the level
   Options options;                    ///< resolved
   ControlScope scope = ControlScope::model;
   double voxel_size = 0, threshold = 0;
   double reach = 0;  ///< the largest radius of all trees, scene units
   std::vector<ForestModel> models;
-  /// Of ControlScope::scene: of N_iso over all trees, their neighbours included.
+  /// For ControlScope::scene: statistics of N_iso over all trees, neighbours included.
   std::optional<DensityStatistics> scene_statistics;
   ExactVolume least = 0;  ///< twelve times the least volume that a piece of surface may have
-  /// The mean areas of leaf points and of what samples stand for, as their models have them; 0:
-  /// vertices.
+  /// The mean areas that a leaf point and a sample stand for, in model units; 0: vertices.
   double area_unit = 0, sample_unit = 0;
-  std::optional<Vec3f> colour;  ///< of the leaves of all trees, linear, mean; none: unknown
+  std::optional<Vec3f> colour;  ///< linear mean over the leaves of all trees; none: unknown
   double error = 0;             ///< how far the surface may be from the finest, scene units
 };
 
@@ -80,20 +79,19 @@ std::vector<ModelUse> model_uses(const Scene& scene);
 std::vector<LeafSet> read_models(const Scene& scene, std::span<const ModelUse> uses,
                                  const LeafOptions& options);
 
-/// The options of each model, which differ where a dilation finds R_max model by model.
+/// The options of each model; they differ where a dilation finds R_max model by model.
 /// @throws Error as Sliders::prepare does.
 std::vector<Options> shapes_of(std::span<const LeafSet> models, std::span<const ModelUse> uses,
                                const Options& resolved, Device& device);
 
-/// The voxel size of level 0: as asked for, or such that the resolution counts along the largest
-/// tree.
+/// The voxel size of level 0: as asked for, or from the resolution along the largest tree.
 double voxel_size_of(std::span<const LeafSet> models, std::span<const ModelUse> uses,
                      std::span<const Options> shapes);
 
-/// Prepares a level: kernels of every model and T. T as a coverage or a
-/// percentage of m is taken over the leaf vertices of all trees, each tree standing alone; T itself
-/// keeps its ratio to m from level to level. An erosion is of each model: its kernels' weights are
-/// divided by its own T, and T is 1. `finest`: level 0, for the others.
+/// Prepares a level: kernels of every model and T. T as a coverage or a percentage of m is taken
+/// over the leaf vertices of all trees, each tree standing alone; T itself keeps its ratio to m
+/// from level to level. An erosion applies to each model: its kernels' weights are divided by its
+/// own T, and T is 1. `finest`: level 0, for the other levels.
 ForestLevel prepare_level(int level, const Scene& scene, std::span<const LeafSet> models,
                           std::span<const Options> shapes, double voxel_size,
                           const ForestLevel* finest, Device& device);
@@ -102,12 +100,12 @@ ForestLevel prepare_level(int level, const Scene& scene, std::span<const LeafSet
 /// tree, standing alone. Computes the surface of every model.
 ExactVolume least_volume(const ForestLevel& level, std::span<const ModelUse> uses, Device& device);
 
-/// How much an area counts that grows by `growth`, against the mean one; an area of 0, as vertices
-/// have it, counts for 1.
+/// The weight of an area that grows by `growth`, relative to the mean area; an area of 0, as
+/// vertices have it, counts 1.
 std::uint64_t weight_of(double area, double growth, double mean_area);
 
-/// T for a coverage of weighted densities, which are sorted: as threshold_for_coverage where all
-/// weights are one.
+/// T for a coverage of weighted densities, which it sorts; the same as threshold_for_coverage where
+/// all weights are one.
 double threshold_for_coverage(std::vector<WeightedDensity>& densities, double coverage);
 
 }  // namespace leafhull

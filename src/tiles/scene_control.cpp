@@ -59,8 +59,8 @@ class Histogram {
   /// The highest lower end of a bin that has at least `share` of all at or above it.
   double quantile(double share) const { return end_of(bin_above(share, 1).first); }
 
-  /// The same, to the nearest `unit`, what a place on the leaves counts for; halfway down to the
-  /// next bin with something in it where just that share lies above, as in an extraction.
+  /// The same, to the nearest `unit`, the weight of a place on the leaves; where exactly that share
+  /// lies above, halfway down to the next bin that is not empty, as in an extraction.
   double halfway_quantile(double share, std::uint64_t unit) const {
     const auto [bin, exact] = bin_above(share, unit);
     if (!exact) return end_of(bin);
@@ -69,7 +69,7 @@ class Histogram {
     return next > 0 ? (end_of(bin) + end_of(next - 1)) / 2 : end_of(bin);
   }
 
-  /// The lower end of the lowest bin that has at least `share` of all in it and below.
+  /// The lower end of the lowest bin with at least `share` of all in it or below.
   double not_exceeded_by(double share) const {
     std::uint64_t all = 0, up_to = 0;
     for (const std::uint64_t c : counts_) all += c;
@@ -83,7 +83,7 @@ class Histogram {
 
   std::span<std::uint64_t> counts() { return counts_; }
 
-  /// The lower ends of the bins, and how much lies in each, of what is `in_solid` or not.
+  /// The bins' lower ends and the weight in each, of places that are `in_solid` or not.
   std::vector<WeightedDensity> densities(bool in_solid) const {
     std::vector<WeightedDensity> all;
     for (std::uint32_t bin = 0; bin < kBins; ++bin) {
@@ -98,7 +98,7 @@ class Histogram {
   }
 
  private:
-  /// That bin, and whether just the share lies in it and above.
+  /// The bin for `share`, and whether exactly that share lies in it and above.
   std::pair<std::uint32_t, bool> bin_above(double share, std::uint64_t unit) const {
     std::uint64_t all = 0;
     for (const std::uint64_t c : counts_) all += c;
@@ -119,7 +119,7 @@ class Histogram {
   std::vector<std::uint64_t> counts_;
 };
 
-/// What the ranks have counted, together.
+/// The sum of what the ranks have counted.
 Moments together(const Moments& mine, Ranks& ranks) {
   Moments sum;
   for (const std::string& bytes : ranks.all({reinterpret_cast<const char*>(&mine), sizeof mine})) {
@@ -130,7 +130,7 @@ Moments together(const Moments& mine, Ranks& ranks) {
   return sum;
 }
 
-/// The ranks take tiles in turn.
+/// Visits the tiles, which the ranks take in turn.
 template <class Visit>
 void for_each_tile(const TilePlan& plan, Ranks& ranks, const TilesDone& advance, Visit&& visit) {
   ranks.reset();
@@ -140,7 +140,7 @@ void for_each_tile(const TilePlan& plan, Ranks& ranks, const TilesDone& advance,
   }
 }
 
-/// T for what the options ask, the level's statistics being those of the scene.
+/// T as the options ask, where the level's statistics are the scene's.
 double threshold_of(const ForestLevel& level, const ForestLevel* finest, double mean) {
   const Options& options = level.options;
   if (options.threshold_percent) return *options.threshold_percent / 100 * mean;

@@ -14,10 +14,10 @@ namespace leafhull {
 using TilesDone = std::function<void(std::size_t done, std::size_t all)>;
 
 /// Control over the whole scene: m and s of N_iso over all leaf vertices, neighbours included, and
-/// T for a coverage of N there. Two passes over the tiles, which the ranks share; sums are of
-/// integers, so that neither ranks nor tiles show. Sets `scene_statistics` and `threshold`. T for a
-/// coverage is the lower end of the last of 2^16 steps per power of two that still leaves the
-/// coverage above it. Collective.
+/// T for a coverage of N there. It takes two passes over the tiles, which the ranks share; sums are
+/// of integers, so the result depends on neither ranks nor tiles. Sets `scene_statistics` and
+/// `threshold`. T for a coverage is the lower end of the last of 2^16 steps per power of two that
+/// still leaves the coverage above it. Collective.
 void control_over_scene(const TilePlan& plan, const ForestLevel* finest, ForestLevel& level,
                         Device& device, Ranks& ranks, const TilesDone& advance);
 

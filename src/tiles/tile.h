@@ -22,8 +22,8 @@ struct TileId {
 /// A volume in 1 / 2^42 voxels, times twelve: exact, so that parts add up in any order.
 __extension__ typedef __int128 ExactVolume;  // NOLINT(modernize-use-using)
 
-/// A vertex that two tiles may share: the cell of the global lattice that holds it, and which of
-/// the vertices there.
+/// A vertex that two tiles may share: the cell of the global lattice that holds it, and its number
+/// among the vertices there.
 struct SeamVertex {
   Coord cell;
   std::uint32_t patch = 0;
@@ -42,8 +42,8 @@ struct SeamComponent {
   ExactVolume volume = 0;    ///< this tile's part
 };
 
-/// The surface of a tile: its own vertices are those in its cells, and after them come those of
-/// upper neighbours that its triangles reach for. The same vertex has the same bits in every tile.
+/// The surface of a tile: first its own vertices, those in its cells; then those of upper
+/// neighbours that its triangles use. The same vertex has the same bits in every tile.
 struct TileSurface {
   Mesh mesh;
   std::uint32_t own_vertices = 0;
@@ -51,10 +51,10 @@ struct TileSurface {
   /// each part ascending.
   std::vector<SeamVertex> borrowed, lent;
   std::vector<SeamComponent> components;  ///< those that reach a seam
-  std::uint64_t leaf_vertices = 0;        ///< whose centre lies in the tile
+  std::uint64_t leaf_vertices = 0;        ///< those whose centre lies in the tile
   std::uint64_t gathered = 0;             ///< kernels, halo included
   std::uint64_t evaluated_voxels = 0;
-  std::uint64_t dropped_components = 0;  ///< those small and within the tile
+  std::uint64_t dropped_components = 0;  ///< small pieces within the tile
 };
 
 }  // namespace leafhull

@@ -16,7 +16,7 @@ namespace {
 
 /// Lattice coordinates are 32 bits, with room for neighbours.
 constexpr double kMostCoordinate = 1 << 30;
-/// Whatever the file system says.
+/// The most tiles, whatever the file system says.
 constexpr double kMostTiles = 1e7;
 
 double number_of_tiles(const Box& box, double side) {

@@ -13,10 +13,10 @@
 namespace leafhull {
 
 /// Where a tree's density may be needed: within reach of a tile's samples and the brick around
-/// them. `bounds` and `reach` are its model's: of the kernels' centres, and the largest radius.
+/// them. `bounds` holds its model's kernel centres; `reach` is the model's largest radius.
 Box reached_box(const PlacedTree& tree, const Box& bounds, double reach, double voxel_size);
 
-/// Told before anything is computed from the leaves of the models.
+/// Checks the number of tiles before anything is computed from the models' leaves.
 /// @param edge cells along a tile.
 /// @throws Error usage: voxels so small that there are more tiles than the file system of `folder`
 ///         can hold, or more voxels than leafhull can count.
@@ -27,7 +27,7 @@ void check_tile_count(const Scene& scene, std::span<const LeafSet> models,
 /// @throws Error usage, as above.
 void check_room_for_tiles(double tiles, double voxel_size, const std::filesystem::path& folder);
 
-/// With three digits.
+/// A number with three digits.
 std::string short_number(double value);
 
 }  // namespace leafhull

@@ -13,13 +13,13 @@ namespace leafhull {
 namespace {
 
 constexpr int kEdges[] = {kTileEdge, kTileEdge / 2, kTileEdge / 4};
-/// Beside models and tiles: the program, its libraries and compiled kernels, and batches of lists.
+/// Fixed memory: the program, its libraries and compiled kernels, and batches of lists.
 constexpr double kFixedBytes = 400.0 * (1 << 20);
-/// Of a tile that is done: its records, and its lines of journal, manifest and report.
+/// Memory for a finished tile: its records, and its lines of journal, manifest and report.
 constexpr double kBytesPerTile = 4000;
-/// Of a kernel: on the lattice, in order of the scene and of the hash, and the hash itself.
+/// Memory for a kernel: on the lattice, in scene order and hash order, and the hash itself.
 constexpr double kBytesPerKernel = 150;
-/// Of a sample, with polygons and mesh; and which share of a tile's samples is evaluated at most.
+/// Memory for a sample with polygons and mesh; and the most of a tile's samples evaluated.
 constexpr double kBytesPerSample = 26, kShareOfSamples = 0.5;
 
 struct Range {
@@ -40,7 +40,7 @@ Box reached_box(const PlacedTree& tree, const ForestLevel& level) {
   return reached_box(tree, model.bounds, model.reach, level.voxel_size);
 }
 
-/// Where a tree counts: in control over the scene for the radii of any kernel that it reaches, too.
+/// Where a tree counts: in control over the scene, also for the radii of any kernel it reaches.
 Box heard_box(const Box& reached, const ForestLevel& level) {
   const double r = level.scope == ControlScope::scene ? level.reach : 0;
   return {reached.low - Vec3d(r, r, r), reached.high + Vec3d(r, r, r)};
@@ -138,7 +138,7 @@ int tile_edge(std::span<const ForestLevel> levels, std::optional<int> asked, std
     }
     check_room_for_tiles(tiles, levels.front().voxel_size, folder);
     const double samples = std::pow(edge + 2.0 * kBrickEdge, 3) * kShareOfSamples;
-    // Kernels in the brick around the tile as well.
+    // The brick around the tile holds kernels as well.
     const double around = std::pow(1 + 2.0 * kBrickEdge / edge, 2);
     needed = tiles * kBytesPerTile +
              kTilesAtOnce * (heaviest * around * kBytesPerKernel + samples * kBytesPerSample);

@@ -13,9 +13,9 @@
 
 namespace leafhull {
 
-/// Cells along a tile where nothing else is asked for.
+/// Cells along a tile by default.
 inline constexpr int kTileEdge = 128;
-/// Tiles that are computed at once, at most.
+/// The most tiles that are computed at once.
 inline constexpr int kTilesAtOnce = 2;
 
 /// A tile to compute: `trees` are those that may reach it, ascending.
@@ -32,7 +32,7 @@ class TilePlan {
   TilePlan(const ForestLevel& level, int edge);
 
   std::size_t size() const { return tiles_.size(); }
-  /// Ascending.
+  /// The tiles, ascending.
   std::span<const TileId> tiles() const { return tiles_; }
   /// The trees whose density may reach tile `t` or the samples around it, or, in control over the
   /// scene, the kernels that do; ascending.
@@ -40,7 +40,7 @@ class TilePlan {
     return std::span(trees_).subspan(first_[t], first_[t + 1] - first_[t]);
   }
   TileTask task(std::size_t t) const { return {tiles_[t], edge_, trees(t)}; }
-  /// About how many kernels these have there.
+  /// About how many kernels these trees have there.
   double weight(std::size_t t) const { return weights_[t]; }
   double heaviest() const;
 

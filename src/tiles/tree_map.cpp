@@ -7,7 +7,7 @@
 namespace leafhull {
 namespace {
 
-/// What rounding to floats leaves of a rotation and a scale.
+/// How far float rounding may move a map from a rotation and a scale.
 constexpr double kSimilar = 1e-5;
 
 }  // namespace

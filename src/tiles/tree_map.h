@@ -7,8 +7,8 @@
 
 namespace leafhull {
 
-/// Where a placed tree's model goes: a density is carried along, N(p) = N_model(A^-1 (p - t)).
-/// Under a map that is no similarity spheres become ellipsoids, which are kernels as well.
+/// Maps a model to its placed tree, along with its density: N(p) = N_model(A^-1 (p - t)). A map
+/// that is no similarity turns spheres into ellipsoids, which are kernels as well.
 class TreeMap {
  public:
   explicit TreeMap(const PlacedTree& tree);
@@ -18,11 +18,11 @@ class TreeMap {
   Box operator()(const Box& box) const;
   /// A kernel of the model, placed; it keeps its weight. `falloff`: k.
   LatticeKernel operator()(const Kernel& kernel, const Lattice& lattice, int falloff) const;
-  /// By how much lengths grow at most.
+  /// The largest factor by which lengths grow.
   double stretch() const { return stretch_; }
-  /// By how much volumes grow, >= 0.
+  /// The factor by which volumes grow, >= 0.
   double volume() const { return volume_; }
-  /// By how much areas grow, whatever way they face.
+  /// The factor by which areas grow, whatever way they face.
   double area() const { return scale_ * scale_; }
 
  private:

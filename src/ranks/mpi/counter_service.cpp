@@ -28,7 +28,7 @@ CounterService::~CounterService() {
   MPI_Comm_free(&requests_);
 }
 
-/// Not those of the server's thread, where nobody would catch them: they end all ranks.
+/// Except on rank 0, where the server's thread would not catch errors: there they end all ranks.
 void CounterService::errors_return() {
   if (!server_) MPI_Comm_set_errhandler(requests_, MPI_ERRORS_RETURN);
 }

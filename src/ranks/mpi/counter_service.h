@@ -13,22 +13,22 @@
 
 namespace leafhull {
 
-/// How ranks of other hosts reach the counters on rank 0's board, while rank 0 computes: a thread
+/// Lets ranks of other hosts reach the counters on rank 0's board while rank 0 computes: a thread
 /// of rank 0 looks for their messages every millisecond.
 ///
-/// Not by MPI_Fetch_and_op: over TCP Open MPI 4.1 has no window by default (MPI_Win_allocate
-/// fails), and with osc/pt2pt or osc/ucx others wait as long as rank 0 does not call MPI (2 s in 2
-/// s).
+/// MPI_Fetch_and_op does not serve: over TCP Open MPI 4.1 has no window by default
+/// (MPI_Win_allocate fails), and with osc/pt2pt or osc/ucx others wait until rank 0 calls MPI (2 s
+/// in 2 s).
 class CounterService {
  public:
-  CounterService(Session& session, HostBoard& board);  ///< Collective, as is the end.
+  CounterService(Session& session, HostBoard& board);  ///< Collective, as is the destructor.
   ~CounterService();
   CounterService(const CounterService&) = delete;
   CounterService& operator=(const CounterService&) = delete;
 
   void errors_return();
 
-  /// As HostBoard::add, of rank 0's board.
+  /// As HostBoard::add, on rank 0's board.
   std::uint64_t add(Counter counter, std::uint64_t amount);
 
  private:
@@ -38,7 +38,7 @@ class CounterService {
   Session& session_;
   HostBoard& board_;
   MPI_Comm requests_ = MPI_COMM_NULL;
-  std::optional<std::jthread> server_;  ///< of rank 0
+  std::optional<std::jthread> server_;  ///< on rank 0 only
 };
 
 }  // namespace leafhull

@@ -28,7 +28,7 @@ int cores_of(MPI_Comm host) {
   return std::max(1, CPU_COUNT(&cores));
 }
 
-/// Where each of all ranks stands among those of `host`; -1: not there.
+/// The place of each of all ranks among those of `host`; -1: not there.
 std::vector<int> places_in(MPI_Comm host) {
   MPI_Group world_group = MPI_GROUP_NULL, host_group = MPI_GROUP_NULL;
   MPI_Comm_group(MPI_COMM_WORLD, &world_group);

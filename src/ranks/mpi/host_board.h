@@ -17,27 +17,27 @@ enum class Counter : std::size_t { next = kSums };
 inline constexpr std::size_t kCounters = kSums + 1;
 inline Counter counter_of(Sum sum) { return static_cast<Counter>(sum); }
 
-/// What the ranks of one host tell each other in memory that they share, where a handler of a
-/// signal can read it too.
+/// What the ranks of one host tell each other in shared memory, where a signal handler can read it
+/// too.
 class HostBoard {
  public:
-  HostBoard();  ///< Collective, as is the end.
+  HostBoard();  ///< Collective, as is the destructor.
   ~HostBoard();
   HostBoard(const HostBoard&) = delete;
   HostBoard& operator=(const HostBoard&) = delete;
 
   int ranks() const { return static_cast<int>(pids_.size()); }
-  int cores() const { return cores_; }  ///< that these ranks may run on together
+  int cores() const { return cores_; }  ///< that these ranks may use together
 
-  bool has(int rank) const;  ///< `rank` among all
+  bool has(int rank) const;  ///< `rank` is numbered among all ranks
 
-  /// Adds and returns the sum.
+  /// Adds the amount and returns the new sum.
   std::uint64_t add(Counter counter, std::uint64_t amount) noexcept;
   void set(Counter counter, std::uint64_t value) noexcept;
-  void note(Counter counter, std::uint64_t value) noexcept;  ///< unless it is higher already
+  void note(Counter counter, std::uint64_t value) noexcept;  ///< keeps a higher value
   std::uint64_t get(Counter counter) const noexcept;
 
-  bool leave() noexcept;  ///< true for the first
+  bool leave() noexcept;  ///< true for the first to leave
   void wait_for_leavers() const noexcept;
   bool is_lost(int rank) const noexcept;  ///< false for one of another host
 
@@ -55,10 +55,10 @@ class HostBoard {
   MPI_Comm host_ = MPI_COMM_NULL;
   MPI_Win window_ = MPI_WIN_NULL;
   Board* board_ = nullptr;
-  std::atomic<bool>* left_ = nullptr;  ///< behind the board, a rank each
-  int place_ = 0;                      ///< this rank's
+  std::atomic<bool>* left_ = nullptr;  ///< one per rank, behind the board
+  int place_ = 0;                      ///< this rank's place on the board
   int cores_ = 1;
-  std::vector<int> pids_;    ///< 0: of a process that cannot be seen from here
+  std::vector<int> pids_;    ///< 0: a process that cannot be seen from here
   std::vector<int> places_;  ///< by rank among all; -1: on another host
 };
 

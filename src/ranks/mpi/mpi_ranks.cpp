@@ -29,7 +29,7 @@ class MpiRanks final : public Ranks {
 
   ~MpiRanks() override {
     try {
-      barrier();  // those at MPI's own end would take a core while they wait
+      barrier();  // in MPI's own, ranks that wait would take a core
     } catch (const Error&) {
       MPI_Abort(MPI_COMM_WORLD, static_cast<int>(ErrorCode::internal));
     }
@@ -107,7 +107,7 @@ class MpiRanks final : public Ranks {
   /// MPI's counts are ints.
   static int to_int(std::size_t bytes) {
     if (bytes > static_cast<std::size_t>(std::numeric_limits<int>::max())) {
-      throw Error(ErrorCode::internal, "the ranks have more than 2 GiB to say");
+      throw Error(ErrorCode::internal, "the ranks send more than 2 GiB at once");
     }
     return static_cast<int>(bytes);
   }

@@ -52,7 +52,7 @@ void check(int result, std::string_view what) {
   int size = 0;
   MPI_Error_string(result, text.data(), &size);
   throw Error(ErrorCode::internal, std::string(what) + " failed: " + text.data(),
-              "Look at what mpirun says; --resume goes on.");
+              "See what mpirun says; --resume continues the run.");
 }
 
 void wait(MPI_Request request, std::mutex& turn) {
