@@ -124,7 +124,7 @@ void check_ranks_agree(const Arguments& arguments, Ranks& ranks) {
   for (std::size_t rank = 1; rank < all.size(); ++rank) {
     if (all[rank] == all.front()) continue;
     throw Error(ErrorCode::usage,
-                "rank " + std::to_string(rank) + " was not started with the same command as rank 0",
+                "rank " + std::to_string(rank) + " was started with other words than rank 0",
                 "Give all ranks the same command. For parts of their own start them without MPI "
                 "(srun --mpi=none).");
   }
