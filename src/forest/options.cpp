@@ -53,7 +53,7 @@ void check_shape(const ForestOptions& forest) {
     return;
   }
   if (over_scene && (shape.erosion || shape.dilation)) {
-    refuse("--erosion and --dilation go by model, but --control-scope is scene",
+    refuse("--erosion and --dilation are set for each model, but --control-scope is scene",
            "Leave out one of the two.");
   }
   if (shape.density == DensitySource::grid) {

@@ -70,7 +70,7 @@ class Sliders(CommandTest):
         command = ("forest", scene, *sliders, "--control-scope", "scene", "-o", self.out / "scene")
         result = self.run_command(*command)
         self.assertEqual(result.returncode, 2)
-        self.assertIn("of each model", result.stderr)
+        self.assertIn("set for each model", result.stderr)
 
     def test_what_cannot_be_had(self):
         for words, *flags in (
