@@ -119,8 +119,8 @@ class Parts(ForestTest):
     def test_a_part_is_done_once(self):
         flags = (*COARSE, "--tile", "32")
         first = self.part(1, "parts", *flags)
-        self.assertNotIn("from before", first.stderr)
-        self.assertIn("from before", self.part(1, "parts", *flags).stderr)
+        self.assertNotIn("from an earlier run", first.stderr)
+        self.assertIn("from an earlier run", self.part(1, "parts", *flags).stderr)
         # What a part has left is no unfinished forest that a part may not join.
         self.part(2, "parts", *flags)
         self.forest(self.scene, "parts", *flags, "--resume")

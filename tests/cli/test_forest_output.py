@@ -130,7 +130,7 @@ class Instances(ForestTest):
                                  *COARSE)  # fmt: skip
         self.assertEqual(again.returncode, 2)
         result = self.forest(scene, "apart", "--merge", "none", *COARSE, "--resume")
-        self.assertIn("nothing was to do", result.stderr)
+        self.assertIn("nothing was left to do", result.stderr)
         self.forest(scene, "apart", "--merge", "none", *COARSE, "--restart")
         self.assertEqual((self.out / "apart" / "forest.glb").read_bytes(), before)
 

@@ -16,17 +16,17 @@ MPIRUN = os.environ["MPIRUN"]
 MANY_TILES = ("--voxel-size", "0.04", "--tile", "32")
 LOST = re.compile(
     r"leafhull: rank (\d) \(\S+, process (\d+)\) died; still to do: (\d+) of (\d+) tiles; "
-    r"the same command with --resume goes on"
+    r"the same command with --resume continues"
 )
 OTHER_HOST = pathlib.Path(__file__).parents[1] / "ranks" / "other_host.sh"
 STOPPED = re.compile(
-    r"leafhull: stopped; still to do: \d+ of \d+ tiles; the same command with --resume goes on"
+    r"leafhull: stopped; still to do: \d+ of \d+ tiles; the same command with --resume continues"
 )
 
 
 FAILED = re.compile(
     r"leafhull: error: rank 1: cannot write .*\. (\d+) of (\d+) tiles are still to do; "
-    r"the same command with --resume goes on\."
+    r"the same command with --resume continues\."
 )
 
 
@@ -154,8 +154,8 @@ class ForestRanks(CommandTest):
         code, text = self.end(process)
         self.assertNotEqual(code, 0)
         (line,) = our_lines(text)
-        self.assertIn("perhaps by a rank of another host; ", line)
-        self.assertRegex(line.replace(", perhaps by a rank of another host", ""), STOPPED)
+        self.assertIn("perhaps by a rank on another host; ", line)
+        self.assertRegex(line.replace(", perhaps by a rank on another host", ""), STOPPED)
 
     def test_an_error_says_how_much_is_still_to_do(self):
         process = self.start_tiles(2)
@@ -212,4 +212,4 @@ class ForestRanks(CommandTest):
         result = subprocess.run(command, capture_output=True, text=True, timeout=100)
         self.assertEqual(result.returncode, 2, result.stderr)
         self.assertEqual(len(our_lines(result.stderr)), 1, result.stderr)
-        self.assertIn("other words", our_lines(result.stderr)[0])
+        self.assertIn("another command", our_lines(result.stderr)[0])

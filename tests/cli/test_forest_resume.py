@@ -75,7 +75,7 @@ class CutOff(ForestTest):
 
     def assert_says_what_is_left(self, result):
         told = re.search(r"\. (\d+) of (\d+) tiles are still to do; the same command with --resume "
-                         r"goes on\.\n\Z", result.stderr)  # fmt: skip
+                         r"continues\.\n\Z", result.stderr)  # fmt: skip
         self.assertIsNotNone(told, result.stderr)
         journals = (self.place / "work").glob("journal-*")
         done = sum(len(journal.read_text().splitlines()) for journal in journals)
@@ -219,7 +219,7 @@ class Folders(ForestTest):
         self.refuse(2, ["finished", "--resume", "--restart"], *TILED)
         before = {path: path.stat().st_mtime_ns for path in self.place.rglob("*")}
         result = self.forest(self.scene, "forest", *TILED, "--resume")
-        self.assertRegex(result.stderr, r"\Aleafhull: .*finished: nothing was to do\n\Z")
+        self.assertRegex(result.stderr, r"\Aleafhull: .*finished; nothing was left to do\n\Z")
         self.assertEqual({path: path.stat().st_mtime_ns for path in self.place.rglob("*")}, before)
         self.refuse(2, ["finished, without all.glb"], *TILED, "--resume",
                     "--single", self.place / "all.glb")  # fmt: skip

@@ -112,7 +112,7 @@ class Leaves(CommandTest):
 
         tree = self.input("guess.glb", glb.tree(*glb.cards(count=2), change=change))
         result = self.succeed("inspect", tree)
-        self.assertRegex(result.stderr, r"warning: what the leaves are is a guess: .*--leaves")
+        self.assertRegex(result.stderr, r"warning: the choice of leaves is a guess: .*--leaves")
 
     def test_twenty_thousand_nodes_are_quick_and_readable(self):
         tree = self.input("many.glb", chain(20_000))
@@ -131,7 +131,7 @@ class Leaves(CommandTest):
             primitives[:] = [primitives[0] | {"material": i} for i in range(50)]
 
         tree = self.input("many.glb", glb.tree(*glb.cards(count=3), change=change))
-        self.assertIn("and 20 more, all of them with --json", self.succeed("inspect", tree).stdout)
+        self.assertIn("and 20 more; --json lists them all", self.succeed("inspect", tree).stdout)
 
     def test_a_forest_makes_no_tree_of_a_meadow(self):
         path = self.input("scene.glb", scene())

@@ -182,7 +182,7 @@ class Resuming(SweepTest):
                 self.assertGreaterEqual(done, 2)
                 self.assertFalse((folder / "sweep.csv").exists())
                 if number != signal.SIGKILL:
-                    self.assertIn("the same command goes on", words)
+                    self.assertIn("the same command continues", words)
                 again = self.succeed("sweep", ASH, *NINE, "-o", folder)
                 self.assertIn(f"resuming: {done} of 9 done", again.stderr)
                 self.assertEqual(timeless(self.table(folder)), timeless(self.table()))
@@ -297,7 +297,7 @@ class Resuming(SweepTest):
     def test_a_table_from_elsewhere_is_not_overwritten(self):
         self.sweep.mkdir()
         (self.sweep / "sweep.csv").write_text("mine")
-        self.refuse(["sweep.csv", "there already"], "--threshold", "1,2", *COARSE)
+        self.refuse(["sweep.csv", "already exists"], "--threshold", "1,2", *COARSE)
         self.run_sweep("--threshold", "1,2", "--restart", *COARSE)
         self.assertEqual(len(self.table()), 2)
 

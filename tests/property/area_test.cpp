@@ -140,7 +140,7 @@ TEST(Coverage, IsTheShareOfLeafAreaInside) {
       if (density.empty()) density = density_at(places, shape);  // T changes no kernel
       EXPECT_NEAR(share_inside(density, shape.report.threshold), coverage, 0.02);
       EXPECT_NEAR(shape.report.covered, coverage, 0.005);
-      EXPECT_FALSE(says(shape.report.warnings, "cannot be had"));
+      EXPECT_FALSE(says(shape.report.warnings, "cannot be reached"));
     }
   }
 }

@@ -134,7 +134,8 @@ TEST_F(ForestStoreDamage, AJournalOfAnotherForestIsRefused) {
   const std::string failure =
       failure_of([&] { const Store store(other.path(), another, "one", true, false); });
   EXPECT_TRUE(failure.starts_with("2 ")) << failure;
-  EXPECT_NE(failure.find("journal-two.jsonl, line 1, is of another forest"), std::string::npos);
+  EXPECT_NE(failure.find("journal-two.jsonl, line 1, belongs to another forest"),
+            std::string::npos);
 }
 
 TEST_F(ForestStoreDamage, ADamagedPlanOrManifestIsRefused) {

@@ -282,9 +282,9 @@ TEST(BadInput, FilesThatAreNotTrees) {
   expect_error(reading(folder / "none.glb"), "none.glb: cannot be read: No such file");
   expect_error(reading(folder.path()), "Is a directory");
   expect_error(reading(write("empty.glb", "")), "is empty");
-  expect_error(reading(write("noise.glb", "noise")), "is not a glTF file in spite of its name");
-  expect_error(reading(write("tree.fbx", "Kaydara")), "is not an FBX file in spite of its name");
-  expect_error(reading(write("tree.txt", "a tree")), "is no glTF, FBX or OBJ file");
+  expect_error(reading(write("noise.glb", "noise")), "is not a glTF file despite its name");
+  expect_error(reading(write("tree.fbx", "Kaydara")), "is not an FBX file despite its name");
+  expect_error(reading(write("tree.txt", "a tree")), "is not a glTF, FBX or OBJ file");
   expect_error(reading(write("package.gltf", "{\"name\": 1}")), "not a glTF document");
   expect_error(reading(write("lost.gltf",
                              R"({"asset":{"version":"2.0"},

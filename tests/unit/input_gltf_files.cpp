@@ -100,7 +100,7 @@ TEST_F(GltfFiles, BuffersAreFoundAsImagesAre) {
 
 TEST_F(GltfFiles, FilesInOtherCaseOrPlaceAreSaid) {
   write_image("trees/Textures/Leaf.PNG");
-  expect_image("textures/leaf.png", "is not there; taken instead is");
+  expect_image("textures/leaf.png", "does not exist; used instead is");
   expect_image("maps/leaf.png", "Textures/Leaf.PNG");
   expect_image("C:/Users/Ann/leaf.png", "is taken from the file's own folder");
   expect_image("file:///C:/Users/Ann/leaf.png", "is taken from the file's own folder");

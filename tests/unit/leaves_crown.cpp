@@ -218,10 +218,10 @@ TEST(Crown, WarnsOfStrays) {
   const Box box{{0, 0, 0}, {1, 2, 1}};
   EXPECT_EQ(stray_warning({box, 20, 6.2}),
             "20 leaves lie far from the crown, up to 3.1 times the crown's longest side away; they "
-            "do not count for its size");
+            "do not count towards its size");
   EXPECT_EQ(stray_warning({box, 1, 3}),
             "1 leaf lies far from the crown, 1.5 times the crown's longest side away; it does not "
-            "count for its size");
+            "count towards its size");
 }
 
 TEST(Crown, IsFoundWithTheLeaves) {

@@ -193,7 +193,7 @@ TEST_F(CsvScene, BadLinesAreNamed) {
   refuse("", "scene.csv holds no trees");
   refuse("model,x,y,z\n# nothing\n", "scene.csv holds no trees");
   refuse("model,x,y,z,scale\nbirch.glb,1,2,3,0\n",
-         "scene.csv holds no tree that can stand: of all 1 the scale is zero or a value is not "
+         "scene.csv holds no tree that can be placed: of all 1 the scale is zero or a value is not "
          "finite, the first at line 2");
   refuse("model,x,y,z\n\nbirch.glb,1,2,3\nbirch.glb,1,two,3\n",
          "scene.csv, line 4: \"two\" in column y is not a number");

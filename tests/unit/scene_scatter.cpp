@@ -208,7 +208,7 @@ TEST_F(Scatter, ValuesOutOfRangeAreRefused) {
     refuse(ErrorCode::usage, words);
   };
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  refuse_with([](auto& o) { o.trees.clear(); }, "no tree is to be scattered");
+  refuse_with([](auto& o) { o.trees.clear(); }, "no tree is given");
   refuse_with([](auto& o) { o.count = 0; }, "--count 0 is out of range");
   refuse_with([](auto& o) { o.count = 1'000'001; }, "--count 1000001 is out of range");
   refuse_with([](auto& o) { o.area = Vec2d{0, 5}; }, "--area has a side that is not");

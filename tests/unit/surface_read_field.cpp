@@ -172,7 +172,7 @@ TEST_F(FieldFiles, RefuseWhatIsNoDensity) {
   expect_error(ErrorCode::input, "finite", 1);
   write({foreign()});
   expect_error(ErrorCode::empty, "reaches the threshold 50", 50);
-  expect_error(ErrorCode::input, "no density", -1);
+  expect_error(ErrorCode::input, "not a density", -1);
 }
 
 }  // namespace

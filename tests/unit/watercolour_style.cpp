@@ -57,7 +57,7 @@ TEST(Style, AFaultNamesFileAndKey) {
   EXPECT_NE(fault(R"({"wetnes": 1})").find("my.json: there is no key 'wetnes'"), std::string::npos);
   EXPECT_NE(fault(R"({"tone": {"wetnes": 1}})").find("my.json: there is no key 'tone.wetnes'"),
             std::string::npos);
-  EXPECT_NE(fault(R"({"tone": 1})").find("my.json: the key 'tone' is 1, which is no wash"),
+  EXPECT_NE(fault(R"({"tone": 1})").find("my.json: the key 'tone' is 1, which is not a wash"),
             std::string::npos);
   EXPECT_NE(fault(R"({"seed": 1.5})").find("my.json: the key 'seed' is 1.5, not a whole number"),
             std::string::npos);
@@ -97,8 +97,8 @@ TEST(Style, EveryNumberHasItsRange) {
       EXPECT_NE(fault(with(wrong)).find("It is a number in " + std::string(key.range)),
                 std::string::npos);
     }
-    EXPECT_NE(fault(with("\"1\"")).find("which is no number"), std::string::npos);
-    EXPECT_NE(fault(with("true")).find("which is no number"), std::string::npos);
+    EXPECT_NE(fault(with("\"1\"")).find("which is not a number"), std::string::npos);
+    EXPECT_NE(fault(with("true")).find("which is not a number"), std::string::npos);
   };
   for (const StyleKey& key : style_keys()) check(key, "{", "}");
   for (const StyleKey& key : wash_keys()) check(key, R"({"ground": {)", "}}");
