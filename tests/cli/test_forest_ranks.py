@@ -36,7 +36,7 @@ def listen_to_interrupts():
 
 
 def ranks_of(mpirun):
-    """The process of each rank."""
+    """The process id of each rank."""
     found = {}
     for folder in pathlib.Path("/proc").iterdir():
         try:
@@ -51,7 +51,7 @@ def ranks_of(mpirun):
 
 
 def processes_with(variable, word):
-    """Those of any parent with this variable in their environment and this word in their command."""
+    """The processes that have this variable in their environment and this word in their command."""
     found = []
     for folder in pathlib.Path("/proc").iterdir():
         try:
@@ -169,7 +169,7 @@ class ForestRanks(CommandTest):
         self.assertTrue(0 <= self.tiles_done(self.out / "stand") - counted <= 2, line)
 
     def start_tiles(self, ranks, **options):
-        """Ranks that have begun with tiles."""
+        """Starts ranks and waits until they compute tiles."""
         process = self.start(ranks, self.out / "stand", *MANY_TILES, **options)
         while self.tiles_done(self.out / "stand") < 8 and process.poll() is None:
             time.sleep(0.01)

@@ -177,7 +177,7 @@ class Subjects(Render):
             self.assertTrue(any(is_green(pixel) for row in rows for pixel in row))
             if shape == self.glb:
                 self.assertEqual(rows, first[2])
-            # An OBJ does not tell the leaves' colour.
+            # An OBJ file does not hold the leaves' colour.
             for row, first_row in zip(rows, first[2], strict=True):
                 self.assertEqual([p == paper for p in row], [p == paper for p in first_row])
         self.assertNotIn("abstract shape", self.render("--as", "shape", subject=self.glb).stderr)

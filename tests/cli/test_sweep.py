@@ -161,7 +161,7 @@ class Resuming(SweepTest):
         return max(0, journal.read_bytes().count(b"\n") - 1) if journal.exists() else 0
 
     def cut_off(self, number):
-        """A sweep that got the signal after two rows or more, and what it said."""
+        """A sweep that got the signal after at least two rows, and what it printed."""
         for attempt in range(10):
             folder = self.out / f"cut-{number}-{attempt}"
             process = self.start(folder)
@@ -200,7 +200,7 @@ class Resuming(SweepTest):
         (self.sweep / "sweep.csv").unlink()
         again = self.run_sweep(*flags)
         self.assertIn("resuming: 2 of 2 done", again.stderr)
-        self.assertEqual((self.sweep / "sweep.csv").read_bytes(), table)  # the seconds, too
+        self.assertEqual((self.sweep / "sweep.csv").read_bytes(), table)  # even the seconds
 
     def test_a_lost_picture_is_drawn_again(self):
         flags = ("--threshold", "1,2", *COARSE)
