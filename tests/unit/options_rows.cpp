@@ -81,7 +81,7 @@ TEST(OptionRows, SpellTheFlags) {
   EXPECT_EQ(line_of(render_table(), "figure17").value, "") << "a flag that a word may follow";
 }
 
-/// The usage error that `change` of the options makes; empty where they are taken.
+/// The usage error that `change` of the options causes; empty if they are accepted.
 std::string forest_refusal(const std::function<void(ForestOptions&)>& change) {
   ForestOptions options;
   change(options);

@@ -19,7 +19,7 @@ class GltfScene : public testing::Test {
     return read_scene(folder.write("forest.glb", builder.glb()), leaves);
   }
 
-  /// Two kinds of trees of bark and leaves, of 20 and 40 leaves, and ground.
+  /// Adds ground, and two kinds of trees with bark and with 20 and 40 leaves.
   GlbBuilder forest() {
     GlbBuilder builder;
     const int bark = builder.add_material("bark");

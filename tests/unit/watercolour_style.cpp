@@ -10,7 +10,7 @@
 namespace leafhull::watercolour {
 namespace {
 
-/// What is wrong with a style file, with its remedy.
+/// The error that a style file causes, with its remedy.
 std::string fault(const std::string& json) {
   try {
     parse_style(json, "my.json");
@@ -85,7 +85,7 @@ TEST(Style, AFaultIsOneLine) {
 TEST(Style, EveryNumberHasItsRange) {
   int numbers = 0;
   const auto check = [&](const StyleKey& key, const std::string& before, const std::string& after) {
-    if (key.high == key.low) return;  // a colour
+    if (key.high == key.low) return;  // the key is a colour
     ++numbers;
     const std::string name = "\"" + std::string(key.name) + "\": ";
     const auto with = [&](const std::string& value) { return before + name + value + after; };
