@@ -151,7 +151,7 @@ class TimeLeft(ForestTest):
             try:
                 while data := screen.read(4096):
                     shown += data
-            except OSError:  # Linux reports so that there is no writer left
+            except OSError:  # Linux reports this way that no writer is left
                 pass
             self.assertEqual(process.wait(timeout=300), 0, shown)
         return shown.decode().split("\r\033[K")

@@ -22,7 +22,7 @@ struct Extraction {
   const nlohmann::json& parameter(const std::string& name) const {
     return report.at("parameters").at(name);
   }
-  /// Whether kernels stand for leaf area, not for leaf vertices.
+  /// Whether kernels represent leaf area instead of leaf vertices.
   bool by_area() const { return word("points") == "area"; }
   double number(const std::string& name) const { return parameter(name).get<double>(); }
   std::string word(const std::string& name) const { return parameter(name).get<std::string>(); }
