@@ -65,7 +65,7 @@ std::span<const OptionRow> option_table() {
           "where kernels sit: on even parts of the leaf area, or on leaf vertices as in the paper",
           {.default_value = "by style"}),
       Row("Shape", "point-spacing", &Options::point_spacing, {0, 0.4, true},
-          "s, the spacing of parts of the leaf area; less follows the leaves closer",
+          "s, the spacing of parts of the leaf area; smaller follows the leaves closely",
           {.unit = "R_max", .default_value = "by style"}),
       Row("Shape", "falloff", &Options::falloff, {1, kLargestFalloff},
           "k, the exponent of a kernel"),
