@@ -1,7 +1,8 @@
-# Who may know what. CMake builds the rooms of src from this table, tools/rooms.py holds the sources to
-# it and writes the column "knows" of ARCHITECTURE.md. Each call is of one form, as Python reads them too.
+# Who may use what. CMake builds the rooms of src from this table, tools/check_includes.py holds the
+# sources to it, and tools/rooms.py writes the column "knows" of ARCHITECTURE.md from it. All calls have
+# the same form because Python reads them too.
 
-# leafhull_library(NAME "ITS NAME" TARGETS what is linked; HEADERS how the paths of its headers begin)
+# leafhull_library(NAME "ITS NAME" TARGETS what to link; HEADERS the first parts of its headers' paths)
 leafhull_library(cgal "CGAL" TARGETS HEADERS CGAL/)
 leafhull_library(cli11 "CLI11" TARGETS CLI11::CLI11 HEADERS CLI/)
 leafhull_library(draco "draco" TARGETS draco::draco HEADERS draco/)
@@ -23,9 +24,9 @@ leafhull_library(tinyobjloader "tinyobjloader" TARGETS tinyobjloader::tinyobjloa
 leafhull_library(ufbx "ufbx (optional)" TARGETS HEADERS ufbx.h)
 leafhull_library(webp "WebP" TARGETS WebP::webp HEADERS webp/)
 
-# leafhull_room(NAME PART; ROOMS that it may include; LIBRARIES that it alone may know). A part other than CORE is
-# left out of the build where LEAFHULL_<PART> is off; RUNS is of both STUDY and FOREST. OpenVDB's rooms come first: the loader looks its
-# 69,000 symbols up in the order of the libraries.
+# leafhull_room(NAME PART; ROOMS that it may include; LIBRARIES that it may use). A part other than CORE
+# is left out of the build if LEAFHULL_<PART> is off; RUNS belongs to both STUDY and FOREST. OpenVDB's
+# rooms come first, because the loader looks up its 69,000 symbols in the order of the libraries.
 leafhull_room(density CORE ROOMS LIBRARIES openvdb tbb)
 leafhull_room(surface CORE ROOMS density LIBRARIES openvdb tbb)
 leafhull_room(input CORE ROOMS colour text

@@ -22,7 +22,7 @@ void start_and_wait(const MemoryFile& input, const MemoryFile& output, const Mem
                      {input.descriptor(), output.descriptor(), messages.descriptor()});
     } catch (const std::system_error& error) {
       fail("gnuplot does not start (" + error.code().message() + ")",
-           "Install gnuplot 5 where PATH finds it; on Debian: apt-get install gnuplot-nox");
+           "Install gnuplot 5 on the PATH; on Debian: apt-get install gnuplot-nox");
     }
   };
   if (!start().wait()) fail("gnuplot says" + one_line(' ' + messages.read()));

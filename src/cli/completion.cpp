@@ -218,9 +218,9 @@ void run_completion(const Arguments& arguments) {
 
 Verb completion_verb() {
   return {.name = "completion",
-          .summary = "a script by which bash, zsh or fish completes this command",
+          .summary = "a completion script for bash, zsh or fish",
           .about =
-              "Prints a script by which SHELL completes verbs, options and their values. It is\n"
+              "Prints a script with which SHELL completes verbs, options and their values. It is\n"
               "installed with leafhull where the shells look for it.",
           .examples =
               "  source <(leafhull completion bash)\n"

@@ -125,7 +125,7 @@ void print_candidates(const LeafChoice& choice) {
   }
   std::cout << table(lines);
   if (rows.size() > kMostRows) {
-    std::cout << "and " << count(rows.size() - kMostRows) << " more, all of them with --json\n";
+    std::cout << "and " << count(rows.size() - kMostRows) << " more; --json lists them all\n";
   }
 }
 

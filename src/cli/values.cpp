@@ -104,7 +104,7 @@ void parse(ByteCount& value, const Typed& typed) {
   value.bytes = static_cast<std::uint64_t>(size);
   if (size < typed.line.low) {
     const auto least = static_cast<std::uint64_t>(typed.line.low);
-    refuse(typed, "is too little", "Give " + bytes(least) + " or more.");
+    refuse(typed, "is too small", "Give " + bytes(least) + " or more.");
   }
 }
 

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kComputeAgain = "Run it again with --resume: the tile is computed again.";
+constexpr const char* kComputeAgain = "Run it again with --resume to compute the tile again.";
 
 class GlbReader {
  public:

@@ -109,7 +109,7 @@ void Companions::require_inside(const fs::path& file) const {
   const fs::path home = fs::weakly_canonical(folder.empty() ? fs::path(".") : folder, error);
   const fs::path way = fs::weakly_canonical(file, error).lexically_relative(home);
   if (error || way.empty() || *way.begin() == "..") {
-    throw FileError("it leads out of the file's folder, which --allow-outside permits");
+    throw FileError("it leads out of the file's folder, which only --allow-outside permits");
   }
 }
 
@@ -126,13 +126,13 @@ Companions::Found Companions::find(std::string_view written) const {
     require_inside(*found);
     return {*found, in_quotes(written) +
                         (outside ? " is taken from the file's own folder: "
-                                 : " is not there; taken instead is ") +
+                                 : " does not exist; used instead is ") +
                         in_quotes(found->string())};
   }
   if (outside && !allow_outside_) {
     throw FileError(
-        "it lies outside of the file's folder, which --allow-outside permits, and there is none of "
-        "its name in it");
+        "it lies outside the file's folder, which only --allow-outside permits, and the folder has "
+        "no file of that name");
   }
   throw FileError(std::make_error_code(std::errc::no_such_file_or_directory).message());
 }

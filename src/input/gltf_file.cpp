@@ -198,7 +198,7 @@ std::function<Bytes()> uri_loader(GltfFile& file, const std::string& uri,
   }
   const bool is_remote = uri.find("://") != std::string::npos && !uri.starts_with("file:");
   if (!file.companions.any() || is_remote) {
-    file.fail(place, in_quotes(uri) + " is outside the file and not looked for",
+    file.fail(place, in_quotes(uri) + " is outside the file and is not looked for",
               "Put everything into one .glb file.");
   }
   try {

@@ -48,14 +48,14 @@ TreeModel read_tree(const std::filesystem::path& path, const ReadOptions& option
   } else if (extension == ".glb" || extension == ".gltf" || extension == ".fbx") {
     input_error(path.string(), "",
                 std::string("is not ") + (extension == ".fbx" ? "an FBX" : "a glTF") +
-                    " file in spite of its name",
+                    " file despite its name",
                 kFormats);
   } else {
     if (const auto foreign = foreign_format(bytes, path)) {
       input_error(path.string(), "", "is " + foreign->name + ", which is not read",
                   foreign->remedy);
     }
-    input_error(path.string(), "", "is no glTF, FBX or OBJ file", kFormats);
+    input_error(path.string(), "", "is not a glTF, FBX or OBJ file", kFormats);
   }
   tree.path = path;
   if (options.up == Up::z) {

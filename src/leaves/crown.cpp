@@ -171,10 +171,10 @@ std::string stray_warning(const Crown& crown) {
   std::snprintf(distance, sizeof distance, "%.2g", crown.farthest / crown.box.longest_side());
   if (crown.strays == 1) {
     return "1 leaf lies far from the crown, " + std::string(distance) +
-           " times the crown's longest side away; it does not count for its size";
+           " times the crown's longest side away; it does not count towards its size";
   }
   return std::to_string(crown.strays) + " leaves lie far from the crown, up to " + distance +
-         " times the crown's longest side away; they do not count for its size";
+         " times the crown's longest side away; they do not count towards its size";
 }
 
 }  // namespace leafhull

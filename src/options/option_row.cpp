@@ -153,9 +153,9 @@ void check_value(const OptionLine& line, int value) {
   check_number(line, value, whole_text);
   if (value % line.step == 0) return;
   const int below = value - value % line.step;
-  refuse_option(
-      flag(line) + " " + std::to_string(value) + " is no multiple of " + std::to_string(line.step),
-      "Give " + std::to_string(below) + " or " + std::to_string(below + line.step) + ".");
+  refuse_option(flag(line) + " " + std::to_string(value) + " is not a multiple of " +
+                    std::to_string(line.step),
+                "Give " + std::to_string(below) + " or " + std::to_string(below + line.step) + ".");
 }
 
 void check_value(const OptionLine& line, std::uint64_t value) {
@@ -176,7 +176,7 @@ void check_value(const OptionLine& line, const std::vector<std::string>& value) 
 
 void check_name(const OptionLine& line, std::size_t value) {
   if (value < line.choices.size()) return;
-  refuse_option(flag(line) + " holds no value of its kind", "Give one of " + line.range + ".");
+  refuse_option(flag(line) + " has an unknown value", "Give one of " + line.range + ".");
 }
 
 }  // namespace leafhull

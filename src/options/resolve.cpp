@@ -90,8 +90,8 @@ void check_contradictions(const Options& options) {
                   "Give one of the three.");
   }
   if (options.adaptivity > 0 && options.mesher != Mesher::vdb) {
-    refuse_option("--adaptivity " + number_text(options.adaptivity) + " is not for --mesher " +
-                      std::string(name(options.mesher)),
+    refuse_option("--adaptivity " + number_text(options.adaptivity) +
+                      " does not apply to --mesher " + std::string(name(options.mesher)),
                   "Give --mesher vdb or leave out one of the two.");
   }
   const auto once = [](const auto& value, const auto& percent, const std::string& flag) {

@@ -135,8 +135,7 @@ Json figure_rows(const ParameterFigures& figures, const ReadingStudy& own) {
 
 Json curve_data(const ParameterFigures& figures, const std::string& svg, const std::string& tree) {
   return plot_data(svg, "Curves of the dilated voxels and off-site vertices of " + tree +
-                            " over the " + std::string(figures.axis) +
-                            "; the numbers stand below.");
+                            " over the " + std::string(figures.axis) + "; the numbers are below.");
 }
 
 Json parameters(const TreeStudy& tree, const TreePlots* plots) {
@@ -219,7 +218,7 @@ Json band_data(const TreeStudy& tree, const TreePlots* plots) {
   if (plots != nullptr) {
     data["fit"]["plot"] = plot_data(
         plots->band, "The dilated voxels of " + tree.name +
-                         " over its off-site vertices as the band moves; the numbers stand below.");
+                         " over its off-site vertices as the band moves; the numbers are below.");
   }
   return data;
 }

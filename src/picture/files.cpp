@@ -29,7 +29,7 @@ void refuse_input(const fs::path& file, const fs::path& destination, const fs::p
   throw Error(ErrorCode::usage,
               extension.empty() ? "the output " + file.string() + " has no extension"
                                 : "unknown extension " + extension + " of " + file.string(),
-              "Use .png or .exr, or of a turntable .mp4 or .webp.");
+              "Use .png or .exr, or for a turntable .mp4 or .webp.");
 }
 
 void add_film(const PictureFiles& files, FilePlan& plan) {
@@ -44,7 +44,8 @@ void add_film(const PictureFiles& files, FilePlan& plan) {
 }  // namespace
 
 void refuse_buffers(const fs::path& file) {
-  throw Error(ErrorCode::usage, file.string() + " holds what one picture sees, and there are two",
+  throw Error(ErrorCode::usage,
+              file.string() + " holds the buffers of one picture, but there are two",
               "Name a .png file, or leave --beside out.");
 }
 
@@ -68,7 +69,7 @@ FilePlan plan_files(const PictureFiles& files) {
     } else if (extension != ".mp4" && extension != ".webp") {
       refuse_extension(file);
     } else if (files.frames == 0) {
-      throw Error(ErrorCode::usage, file.string() + " is a film, and there is one picture",
+      throw Error(ErrorCode::usage, file.string() + " is a film, but there is only one picture",
                   "Give --turntable N, or name a .png file.");
     } else {
       plan.films.push_back(file);
@@ -87,7 +88,7 @@ FilePlan checked_files(const PictureFiles& files, const fs::path& input, std::si
   if (plan.film_was_asked_for && !can_make_films()) {
     throw Error(ErrorCode::output,
                 "cannot write " + plan.films.front().string() + ": ffmpeg is missing",
-                "Install ffmpeg where PATH finds it, or name a .png file for the frames.");
+                "Install ffmpeg on the PATH, or name a .png file for the frames.");
   }
   std::map<fs::path, fs::path> name_of_destination;
   const auto check = [&](const fs::path& file) {

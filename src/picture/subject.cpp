@@ -35,7 +35,7 @@ Box box_of(const Frame& frame) {
 void place(const Frame& frame, Parts& parts) {
   const Box box = box_of(frame);
   if (!(box.longest_side() > 0)) {
-    throw Error(ErrorCode::input, "what is to be drawn has no extent", "Repair the model.");
+    throw Error(ErrorCode::input, "the subject has no extent", "Repair the model.");
   }
   parts.placement = {(box.low + box.high) / 2, 1 / box.longest_side()};
   parts.points.reserve(frame.points.size());

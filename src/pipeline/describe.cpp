@@ -41,14 +41,15 @@ void warn_of_points(const LeafSet& leaves, const Prepared& prepared, Report& rep
   if (options.points == PointSource::area) {
     std::snprintf(
         text, sizeof text,
-        "a coverage of %.3g cannot be had: most leaves are sheets of one density; T = %.3g, "
+        "a coverage of %.3g cannot be reached: most leaves are sheets of one density; T = %.3g, "
         "well below it, takes in %.0f%% of the leaf area",
         *options.coverage, report.threshold, 100 * report.covered);
   } else {
-    std::snprintf(text, sizeof text,
-                  "a coverage of %.3g cannot be had: many leaf vertices have the density %.4g, and "
-                  "between %.0f%% and %.0f%% of all lie inside (--points area avoids that)",
-                  *options.coverage, report.threshold, 100 * low, 100 * report.covered);
+    std::snprintf(
+        text, sizeof text,
+        "a coverage of %.3g cannot be reached: many leaf vertices have the density %.4g, and "
+        "between %.0f%% and %.0f%% of all lie inside (--points area avoids that)",
+        *options.coverage, report.threshold, 100 * low, 100 * report.covered);
   }
   report.warnings.emplace_back(text);
 }
@@ -119,7 +120,7 @@ void refuse_empty(const Prepared& prepared, const Field& field) {
   const float at_leaves = std::ranges::max(*prepared.there);
   char text[200];
   std::snprintf(text, sizeof text,
-                "the surface is empty: no sample reaches the threshold %.4g, the density being at "
+                "the surface is empty: no sample reaches the threshold %.4g; the density is at "
                 "most %.4g at the leaves and between",
                 field.threshold(), static_cast<double>(std::max(field.highest(), at_leaves)));
   const char* lower = options.threshold           ? "Lower --threshold"
@@ -127,7 +128,7 @@ void refuse_empty(const Prepared& prepared, const Field& field) {
                       : options.erosion           ? "Lower --erosion"
                                                   : "Give --threshold 50% in place of --coverage";
   throw Error(ErrorCode::empty, text,
-              std::string(lower) + ", enlarge --radius-max, or take a finer --resolution.");
+              std::string(lower) + ", enlarge --radius-max, or use a finer --resolution.");
 }
 
 }  // namespace leafhull

@@ -18,24 +18,25 @@ namespace {
 [[noreturn]] void refuse_erosion(double found, double asked) {
   char text[200];
   const bool too_much = found > asked;
-  std::snprintf(text, sizeof text, "an erosion of %.3g cannot be had: %s %.3g outside", asked,
+  std::snprintf(text, sizeof text, "an erosion of %.3g cannot be reached: %s %.3g outside", asked,
                 too_much ? "pieces too small to be kept leave"
                          : "hollows that are filled hold leaves, which leaves",
                 found);
-  throw Error(ErrorCode::usage, text,
-              too_much
-                  ? "Give that, a larger --dilation or --radius-max, or a smaller --min-component."
-                  : "Give that, or --hollows keep.");
+  throw Error(
+      ErrorCode::usage, text,
+      too_much
+          ? "Give that erosion, a larger --dilation or --radius-max, or a smaller --min-component."
+          : "Give that erosion, or --hollows keep.");
 }
 
 [[noreturn]] void refuse_dilation(double found, const Options& options) {
   char text[200];
   std::snprintf(
       text, sizeof text,
-      "a dilation of %.3g cannot be had on this tree: it goes %s to %.3g, with R_max %.3g "
+      "a dilation of %.3g cannot be reached on this tree: it goes %s to %.3g, with R_max %.3g "
       "crown units",
       *options.dilation, found < *options.dilation ? "up" : "down", found, *options.radius_max);
-  throw Error(ErrorCode::usage, text, "Give that, or another --erosion.");
+  throw Error(ErrorCode::usage, text, "Give that dilation, or another --erosion.");
 }
 
 }  // namespace

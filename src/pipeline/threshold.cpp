@@ -38,18 +38,19 @@ double threshold_for_erosion(const ThresholdOptions& options, double erosion,
     std::vector<WeightedDensity> all = weighted(there);
     if (const std::optional<double> whole = below_film(all, threshold)) {
       std::snprintf(text, sizeof text,
-                    "an erosion of %.3g cannot be had: most of this tree is sheets of one density, "
-                    "%.3g, and a surface next to that is a film with holes; %.3g can",
+                    "an erosion of %.3g cannot be reached: most of this tree is sheets of one "
+                    "density, %.3g, and a surface next to that is a film with holes; %.3g can",
                     *options.erosion, *whole / 0.6, share_below(density, *whole));
-      throw Error(ErrorCode::usage, text, "Give that, or --coverage in place of --erosion.");
+      throw Error(ErrorCode::usage, text,
+                  "Give that erosion, or --coverage in place of --erosion.");
     }
   }
   const double below = share_below(density, threshold);
   const double with_equal = share_below(density, std::nextafter(threshold, HUGE_VAL));
   if (std::abs(below - erosion) > kSliderError) {
     std::snprintf(text, sizeof text,
-                  "an erosion of %.3g cannot be had: many leaf vertices have the density %.4g; "
-                  "about %.3g can, and %.3g",
+                  "an erosion of %.3g cannot be reached: many leaf vertices have the density %.4g; "
+                  "about %.3g and %.3g can",
                   *options.erosion, threshold, below, with_equal);
     throw Error(ErrorCode::usage, text, "Give one of these, or --points area.");
   }

@@ -43,14 +43,14 @@ LeafPoints vertex_points(const LeafSet& leaves) {
 
 LeafPoints area_points(const LeafSet& leaves, double spacing, double radius_max) {
   if (!leaves.sheets) {
-    throw Error(ErrorCode::usage, "these leaves have vertices alone and no area",
+    throw Error(ErrorCode::usage, "these leaves have vertices but no area",
                 "Take them from find_leaves, or give --points vertices.");
   }
   const LeafSheets& sheets = *leaves.sheets;
   if (sheets.sheets.empty()) {
     throw Error(ErrorCode::input,
                 "no leaf has a visible area: their textures are transparent there",
-                "Look at the model's textures and alpha modes, or give --points vertices.");
+                "Check the model's textures and alpha modes, or give --points vertices.");
   }
   LeafPoints result;
   const auto is_in_solid = [&](const LeafSheet& sheet) {

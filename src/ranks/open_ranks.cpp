@@ -44,7 +44,7 @@ std::unique_ptr<Ranks> open_ranks() {
 #else
   throw Error(ErrorCode::usage,
               "leafhull was started as one of " + std::to_string(processes) +
-                  " ranks, and it was built without MPI",
+                  " ranks, but it was built without MPI",
               "Start it alone, share the work with --tile-range, or build it with "
               "-DLEAFHULL_MPI=ON.");
 #endif

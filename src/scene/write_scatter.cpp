@@ -29,7 +29,7 @@ void require(bool holds, const std::string& what, const char* remedy) {
 bool is_positive(double value) { return value > 0 && std::isfinite(value); }
 
 void check(const ScatterOptions& options) {
-  require(!options.trees.empty(), "no tree is to be scattered", "Name one tree file or more.");
+  require(!options.trees.empty(), "no tree is given", "Name one tree file or more.");
   if (options.area) {
     const auto [x, y] = *options.area;
     require(is_positive(x) && is_positive(y), "--area has a side that is not a positive number",
@@ -85,7 +85,7 @@ std::string model_name(const fs::path& tree, const fs::path& scatter_file) {
   const std::string name =
       (real_folder(tree) / tree.filename()).lexically_proximate(real_folder(scatter_file)).string();
   require(name.find_first_of("\r\n") == std::string::npos,
-          "the name of " + printable(tree.string(), 1000) + " breaks a line",
+          "the name of " + printable(tree.string(), 1000) + " has a line break",
           "Give the file another name.");
   return csv_field(name);
 }
@@ -125,7 +125,7 @@ std::span<const ScatterOptionRow> scatter_table() {
           "sides of the rectangle along x and z, about the origin",
           {.unit = "model units", .range = "> 0 each", .default_value = "as --spacing asks"}),
       Row("Ground", "height-map", std::pair(kGround, &HeightMap::picture),
-          "the ground as seen from above, white the highest: +x right, +z down",
+          "the ground from above, white the highest; +x is right, +z is down",
           {.range = ".png, grey, 8 or 16 bits", .default_value = "flat", .value = "FILE"}),
       Row("Ground", "height", std::pair(kGround, &HeightMap::height), {-kWidest, kWidest},
           "height of white above black in the height map",

@@ -30,7 +30,7 @@ std::vector<std::string> label(const Suggestion& choice) {
   std::snprintf(result, sizeof result, "R_max %.3g, %llu component%s",
                 choice.report.options.radius_max.value_or(0), pieces, pieces == 1 ? "" : "s");
   return {"erosion " + percent(choice.erosion) + ", dilation " + percent(choice.dilation),
-          !choice.failure.empty() ? "cannot be had"
+          !choice.failure.empty() ? "out of reach"
           : choice.empty          ? "no surface"
                                   : result};
 }

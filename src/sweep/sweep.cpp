@@ -80,7 +80,7 @@ std::vector<fs::path> results(const Files& files, const SweepPlan& plan) {
 void check_nothing_is_lost(const Files& files, const SweepPlan& plan) {
   for (const fs::path& file : results(files, plan)) {
     if (!fs::exists(fs::symlink_status(file))) continue;
-    throw Error(ErrorCode::usage, file.string() + " is there already, and not from this sweep",
+    throw Error(ErrorCode::usage, file.string() + " already exists and is not from this sweep",
                 "Name another folder, or give --restart to replace it.");
   }
 }
@@ -228,7 +228,7 @@ SweepSummary run_sweep(const LeafSet& leaves, const SweepPlan& plan, Device& dev
   if (folder.restart) remove_results(files, journal);
   if (!folder.restart && !journal.is_readable()) {
     throw Error(ErrorCode::usage,
-                files.journal().string() + " is damaged, or of another version of leafhull",
+                files.journal().string() + " is damaged or from another version of leafhull",
                 "Name another folder, or give --restart to replace that sweep.");
   }
   if (folder.restart || journal.rows().empty()) journal.begin(header);

@@ -57,7 +57,7 @@ std::string listed(const Json& values) {
 std::string words_of(const Difference& differs, const Json& there, const Json& here) {
   const std::string part = differs.path.empty() ? "" : differs.path.front();
   if (part == "version") return "it was made by leafhull " + there.value("version", "?");
-  if (part == "leaves") return "its tree, or what counts as its leaves, is another";
+  if (part == "leaves") return "it has another tree or other leaves";
   if (part == "device") return "it was computed on " + there.value("device", "?");
   if (part != "options" || differs.path.size() == 1) return "it sweeps other options";
   const std::string& name = differs.path[1];
@@ -93,10 +93,9 @@ Json identity(const LeafSet& leaves, const SweepPlan& plan, const DeviceInfo& de
 void check_same_sweep(const Json& there, const Json& here, const std::filesystem::path& folder) {
   const std::optional<Difference> differs = first_difference(there, here);
   if (!differs) return;
-  throw Error(
-      ErrorCode::usage,
-      folder.string() + " holds a sweep of something else: " + words_of(*differs, there, here),
-      "Name another folder, or give --restart to replace that sweep.");
+  throw Error(ErrorCode::usage,
+              folder.string() + " holds another sweep: " + words_of(*differs, there, here),
+              "Name another folder, or give --restart to replace that sweep.");
 }
 
 std::vector<std::string_view> values_of(const SweepPlan& plan, std::size_t combination) {

@@ -78,7 +78,7 @@ void check_room_for_tiles(double tiles, double voxel_size, const std::filesystem
   if (tiles <= room) return;
   throw Error(ErrorCode::usage,
               "voxels of " + short_number(voxel_size) + " need up to " + short_number(tiles) +
-                  " tiles, and there is room for " + short_number(room) + " in " + folder.string(),
+                  " tiles, but there is room for " + short_number(room) + " in " + folder.string(),
               "Raise --voxel-size or --tile.");
 }
 

@@ -52,7 +52,7 @@ Vec3f parse_color(const Json& value, const std::string& key, const Source& sourc
   const bool hex = text.size() == 7 && text[0] == '#' &&
                    text.find_first_not_of("0123456789abcdefABCDEF", 1) == std::string::npos;
   if (!hex || std::sscanf(text.c_str(), "#%2x%2x%2x", &r, &g, &b) != 3) {
-    source.fail("the key " + in_quotes(key) + " is " + value.dump() + ", which is no colour",
+    source.fail("the key " + in_quotes(key) + " is " + value.dump() + ", which is not a colour",
                 "Give it as in \"#7a9f3c\".");
   }
   return Vec3f(static_cast<float>(r), static_cast<float>(g), static_cast<float>(b)) / 255.0f;
@@ -62,7 +62,7 @@ double parse_number(const Json& value, const StyleKey& key, const std::string& n
                     const Source& source) {
   const std::string remedy = "It is a number in " + std::string(key.range) + ".";
   if (!value.is_number()) {
-    source.fail("the key " + in_quotes(name) + " is " + value.dump() + ", which is no number",
+    source.fail("the key " + in_quotes(name) + " is " + value.dump() + ", which is not a number",
                 remedy);
   }
   const double number = value.get<double>();
@@ -107,7 +107,7 @@ std::string listing(std::span<const Row> rows) {
 
 void read_wash(Wash& wash, const std::string& name, const Json& object, const Source& source) {
   if (!object.is_object()) {
-    source.fail("the key " + in_quotes(name) + " is " + object.dump() + ", which is no wash",
+    source.fail("the key " + in_quotes(name) + " is " + object.dump() + ", which is not a wash",
                 "A wash is an object with some of the keys " + listing(wash_keys()) + ".");
   }
   for (const auto& [key, value] : object.items()) {

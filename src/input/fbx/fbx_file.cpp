@@ -81,8 +81,7 @@ class FbxReader {
     }
     if (hidden_ > 0) tree_.warnings.push_back(hidden_meshes(hidden_));
     if (tree_.instances.empty()) {
-      input_error(name_, "", "holds no triangles that are seen",
-                  "Export the tree as polygon meshes.");
+      input_error(name_, "", "holds no visible triangles", "Export the tree as polygon meshes.");
     }
     return std::move(tree_);
   }
