@@ -39,9 +39,7 @@ std::vector<OptionLine> lines_of(const std::vector<Flag>& flags) {
 }
 
 std::string names_of(const std::vector<OptionLine>& lines) {
-  std::string names;
-  for (const OptionLine& line : lines) names += (names.empty() ? "" : " ") + names_of(line).back();
-  return names;
+  return joined(lines, " ", [](const OptionLine& line) { return names_of(line).back(); });
 }
 
 std::vector<Verb> visible_verbs() {

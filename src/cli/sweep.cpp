@@ -107,8 +107,7 @@ SweepPlan plan_of(const Arguments& arguments) {
 int first_falloff(const SweepPlan& plan) { return plan.combinations.front().falloff; }
 
 void say_summary(Context& context, const SweepSummary& summary, const Arguments& arguments) {
-  std::string text = "leafhull: " + count(summary.combinations) +
-                     (summary.combinations == 1 ? " combination" : " combinations");
+  std::string text = "leafhull: " + counted(summary.combinations, "combination");
   if (summary.resumed > 0) text += ", " + count(summary.resumed) + " of them from an earlier run";
   if (summary.empty > 0) text += ", " + count(summary.empty) + " without a surface";
   if (summary.failed > 0) text += ", " + count(summary.failed) + " that failed (see sweep.csv)";

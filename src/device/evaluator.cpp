@@ -2,7 +2,6 @@
 #include "device/evaluator.h"
 
 #include <algorithm>
-#include <string>
 
 #include "device/engine.h"
 #include "leafhull/error.h"
@@ -23,9 +22,15 @@ struct Evaluator::Impl {
   int falloff;
   cl::Buffer kernels;
 
-  void launch_points(const cl::Kernel& kernel, std::size_t chunks) {
+  /// Runs a kernel over the points of a batch.
+  template <class... Arguments>
+  void over_points(const char* name, const PointBatch& batch, const Arguments&... arguments) {
+    cl::Kernel kernel = engine.kernel(name, falloff);
+    const cl::Buffer chunks = engine.input(batch.chunks), list = engine.input(batch.kernels);
+    const auto count = static_cast<cl_uint>(batch.chunks.size());
+    set_arguments(kernel, kernels, chunks, count, list, arguments...);
     const std::size_t group = engine.vector() ? 1 : kPointsPerGroup;
-    const std::size_t items = engine.vector() ? chunks : chunks * engine.chunk_points();
+    const std::size_t items = engine.vector() ? count : count * engine.chunk_points();
     engine.queue.enqueueNDRangeKernel(kernel, cl::NullRange,
                                       cl::NDRange((items + group - 1) / group * group),
                                       cl::NDRange(group));
@@ -80,14 +85,10 @@ std::vector<float> Evaluator::density(const PointBatch& batch) {
   Impl& d = *impl_;
   std::vector<float> density(batch.index.size());
   d.engine.run("evaluating the density at points", [&] {
-    cl::Kernel kernel = d.engine.kernel("density_points", d.falloff);
-    const cl::Buffer chunks = d.engine.input(batch.chunks), list = d.engine.input(batch.kernels);
     const cl::Buffer x = d.engine.input(batch.x), y = d.engine.input(batch.y),
                      z = d.engine.input(batch.z);
     const cl::Buffer out = d.engine.buffer(std::span(density), CL_MEM_WRITE_ONLY);
-    set_arguments(kernel, d.kernels, chunks, static_cast<cl_uint>(batch.chunks.size()), list, x, y,
-                  z, out);
-    d.launch_points(kernel, batch.chunks.size());
+    d.over_points("density_points", batch, x, y, z, out);
     d.engine.fetch(out, std::span(density));
   });
   return density;
@@ -98,18 +99,14 @@ Evaluator::Normals Evaluator::snap(PointBatch& batch, double threshold, int step
   Normals normals;
   for (auto* v : {&normals.x, &normals.y, &normals.z}) v->resize(batch.index.size());
   d.engine.run("moving vertices onto the surface", [&] {
-    cl::Kernel kernel = d.engine.kernel("snap_points", d.falloff);
-    const cl::Buffer chunks = d.engine.input(batch.chunks), list = d.engine.input(batch.kernels);
     std::vector<float>* const host[] = {&batch.x,   &batch.y,   &batch.z,
                                         &normals.x, &normals.y, &normals.z};
     cl::Buffer out[6];
     for (cl_uint i = 0; i < 6; ++i) {
       out[i] = d.engine.buffer(std::span(*host[i]), CL_MEM_READ_WRITE);
     }
-    set_arguments(kernel, d.kernels, chunks, static_cast<cl_uint>(batch.chunks.size()), list,
-                  static_cast<cl_float>(threshold), static_cast<cl_int>(steps), out[0], out[1],
-                  out[2], out[3], out[4], out[5]);
-    d.launch_points(kernel, batch.chunks.size());
+    d.over_points("snap_points", batch, static_cast<cl_float>(threshold),
+                  static_cast<cl_int>(steps), out[0], out[1], out[2], out[3], out[4], out[5]);
     for (cl_uint i = 0; i < 6; ++i) d.engine.fetch(out[i], std::span(*host[i]));
   });
   return normals;

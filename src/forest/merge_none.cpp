@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "forest/merge_none.h"
 
-#include <map>
 #include <string>
 
 #include "forest/forest_identity.h"

@@ -10,6 +10,9 @@
 namespace leafhull {
 namespace {
 
+constexpr std::string_view kMergeNames[] = {"none", "canopy"};
+constexpr std::string_view kScopeNames[] = {"model", "scene"};
+
 constexpr int kMostLevels = 8;
 constexpr int kLargestTile = 512;
 constexpr int kMostParts = 1'000'000;
@@ -69,6 +72,9 @@ void check_shape(const ForestOptions& forest) {
 }
 
 }  // namespace
+
+std::span<const std::string_view> names(Merge) { return kMergeNames; }
+std::span<const std::string_view> names(ControlScope) { return kScopeNames; }
 
 void describe(OptionLine& line, const TileRange&) {
   line.value = "I/N";

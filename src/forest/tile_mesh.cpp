@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cstring>
 #include <system_error>
-#include <utility>
 
 #include "leafhull/error.h"
 #include "output/mesh_vertex.h"

@@ -2,7 +2,6 @@
 #include "forest/weld.h"
 
 #include <limits>
-#include <utility>
 
 #include "forest/tile_mesh.h"
 #include "leafhull/error.h"

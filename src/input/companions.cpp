@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "input/input_error.h"
+#include "text/text.h"
 
 namespace leafhull {
 namespace {
@@ -18,13 +19,6 @@ constexpr std::array<std::string_view, 6> kTextureFolders{"textures", "texture",
 
 /// The number of names at the end of a path that are searched for.
 constexpr std::size_t kMostParts = 6;
-
-std::string lower(std::string text) {
-  std::ranges::transform(text, text.begin(), [](char c) {
-    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  });
-  return text;
-}
 
 bool has_drive(std::string_view name) {
   const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
@@ -59,11 +53,11 @@ bool is_file(const fs::path& path) {
 std::optional<fs::path> entry_of(const fs::path& folder, const std::string& name) {
   std::error_code error;
   if (fs::exists(folder / name, error)) return folder / name;
-  const std::string wanted = lower(name);
+  const std::string wanted = in_lower_case(name);
   std::optional<fs::path> found;
   for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
        entry.increment(error)) {
-    const bool fits = lower(entry->path().filename().string()) == wanted;
+    const bool fits = in_lower_case(entry->path().filename().string()) == wanted;
     if (fits && (!found || entry->path() < *found)) found = entry->path();
   }
   return found;

@@ -138,8 +138,7 @@ void parse_model(GltfFile& file, json document) {
 std::optional<Bytes> decode_data(const std::string& uri) {
   const std::size_t comma = uri.find(',');
   if (comma == std::string::npos) return std::nullopt;
-  std::string coding = uri.substr(0, comma);
-  std::ranges::transform(coding, coding.begin(), [](unsigned char c) { return std::tolower(c); });
+  const std::string coding = in_lower_case(uri.substr(0, comma));
   std::string data = percent_decoded(std::string_view(uri).substr(comma + 1));
   if (!coding.ends_with(";base64")) return Bytes(data.begin(), data.end());
   std::erase_if(data, [](unsigned char c) { return std::isspace(c); });

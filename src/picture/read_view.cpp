@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -111,13 +110,7 @@ View read_node(ByteSpan bytes, const std::filesystem::path& path, bool allow_out
 }  // namespace
 
 View read_view(const std::filesystem::path& path, const ReadOptions& options) {
-  const Bytes bytes = [&] {
-    try {
-      return read_file(path, Pipes::read);
-    } catch (const FileError& error) {
-      input_error(path.string(), "", std::string("cannot be read: ") + error.what(), kGiveCamera);
-    }
-  }();
+  const Bytes bytes = read_named_file(path, kGiveCamera);
   const bool is_gltf = lower_extension(path) == ".gltf" || text_of(bytes).starts_with("glTF");
   return is_gltf ? read_node(bytes, path, options.allow_outside)
                  : read_json(text_of(bytes), path.string());

@@ -13,6 +13,11 @@
 namespace leafhull {
 namespace {
 
+constexpr std::string_view kLookNames[] = {"phong", "watercolour", "normals", "depth"};
+constexpr std::string_view kSurfacingNames[] = {"direct", "mesh"};
+constexpr std::string_view kViewpointNames[] = {"front", "three-quarter", "top"};
+constexpr std::string_view kDrawnNames[] = {"tree", "shape"};
+
 constexpr int kMostFrames = 36000;
 
 std::string_view listed_styles() {
@@ -86,6 +91,11 @@ void check_sizes(const PicturePlan& plan, const DeviceInfo* device) {
 }
 
 }  // namespace
+
+std::span<const std::string_view> names(Look) { return kLookNames; }
+std::span<const std::string_view> names(Surfacing) { return kSurfacingNames; }
+std::span<const std::string_view> names(Viewpoint) { return kViewpointNames; }
+std::span<const std::string_view> names(Drawn) { return kDrawnNames; }
 
 void describe(OptionLine& line, Plate) { line.default_value = "off"; }
 

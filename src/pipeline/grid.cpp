@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <string>
 
 #include "leafhull/error.h"
+#include "text/numbers.h"
 
 namespace leafhull {
 namespace {
@@ -19,11 +19,7 @@ constexpr double kMostVoxelsOfGridDensity = 1e6 * (1 + 1e-9);
 /// A radius of more crowns than this is a mistake, and its support would make a huge lattice.
 constexpr double kLargestRadius = 100;
 
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.4g", value);
-  return text;
-}
+std::string number(double value) { return significant(value, 4); }
 
 void check_radii(const LeafSet& leaves, double radius_max) {
   if (leaves.vertices.empty()) {

@@ -5,12 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <string>
 #include <vector>
 
 #include "leafhull/error.h"
+#include "text/choice.h"
+#include "text/numbers.h"
 
 namespace leafhull {
 namespace {
@@ -25,11 +26,7 @@ constexpr const char* kThreshold = "threshold";
   throw Error(ErrorCode::input, file.string() + ": " + what, remedy);
 }
 
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.6g", value);
-  return text;
-}
+std::string number(double value) { return significant(value, 6); }
 
 /// The name of the file's density grid.
 std::string choose_grid(openvdb::io::File& file) {
@@ -41,10 +38,9 @@ std::string choose_grid(openvdb::io::File& file) {
   }
   if (std::find(names.begin(), names.end(), kGrid) != names.end()) return kGrid;
   if (names.size() == 1) return names.front();
-  std::string list;
-  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
   fail(file.filename(),
-       names.empty() ? "holds no grid of floats" : "has no grid 'density' but several: " + list,
+       names.empty() ? "holds no grid of floats"
+                     : "has no grid 'density' but several: " + joined(names, ", "),
        "Give a .vdb file from leafhull extract --save-field.");
 }
 

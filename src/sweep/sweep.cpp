@@ -12,6 +12,7 @@
 #include "leafhull/error.h"
 #include "leafhull/series.h"
 #include "output/destination.h"
+#include "output/report.h"
 #include "runs/read_file.h"
 #include "runs/run_folder.h"
 #include "sweep/journal.h"
@@ -127,13 +128,6 @@ double largest_radius(const LeafSet& leaves, const SweepPlan& plan) {
     radius = std::max(radius, radius_max_in_model_units(leaves, options));
   }
   return radius;
-}
-
-/// Adds a stage before the total, and to it.
-void add_stage(std::vector<StageTime>& times, const std::string& stage, double seconds) {
-  if (times.empty()) times.push_back({"total", 0});
-  times.back().seconds += seconds;
-  times.insert(times.end() - 1, {stage, seconds});
 }
 
 void add_times(std::vector<StageTime>& sums, const std::vector<StageTime>& times) {

@@ -11,6 +11,7 @@
 #include "output/report.h"
 #include "runs/difference.h"
 #include "runs/identity.h"
+#include "text/choice.h"
 
 namespace leafhull {
 namespace {
@@ -46,11 +47,9 @@ Json option_values(const SweepPlan& plan) {
 /// A list of values as a sentence names it.
 std::string listed(const Json& values) {
   constexpr std::size_t kMost = 60;
-  std::string text;
-  for (const Json& value : values) {
-    text += text.empty() ? "" : ", ";
-    text += value.is_null() ? "unset" : value.is_string() ? value.get<std::string>() : value.dump();
-  }
+  const std::string text = joined(values, ", ", [](const Json& value) {
+    return value.is_null() ? "unset" : value.is_string() ? value.get<std::string>() : value.dump();
+  });
   return text.size() <= kMost ? text : text.substr(0, text.rfind(',', kMost)) + ", ...";
 }
 

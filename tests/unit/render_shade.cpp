@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include "colour/colour.h"
 #include "render/light.h"
 #include "render/shade.h"
 #include "render_pixels.h"
@@ -71,7 +72,7 @@ TEST(RenderPhong, AnEdgeIsTheMeanOfWhatItsRaysSee) {
   const Picture picture = shade_phong(buffers);
   const auto edge = pixel(picture, 1), whole = pixel(picture, 2);
   for (int i = 0; i < 3; ++i) {
-    const float half = (1 + linear(static_cast<std::uint8_t>(whole[i]))) / 2;
+    const float half = (1 + linear_of_srgb(static_cast<std::uint8_t>(whole[i]))) / 2;
     EXPECT_NEAR(edge[i], srgb(half), 1);
   }
 }

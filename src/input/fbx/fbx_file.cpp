@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "input/fbx/fbx_file.h"
-
 #include <ufbx.h>
 
 #include <cmath>
@@ -10,6 +8,7 @@
 #include <tuple>
 #include <utility>
 
+#include "input/fbx.h"
 #include "input/fbx/fbx_materials.h"
 #include "input/fbx/fbx_mesh.h"
 #include "input/fbx/fbx_text.h"
@@ -161,8 +160,8 @@ class FbxReader {
 
 }  // namespace
 
-TreeModel read_fbx_file(ByteSpan bytes, const std::string& name, const Companions& companions,
-                        Axes axes) {
+TreeModel read_fbx(ByteSpan bytes, const std::string& name, const Companions& companions,
+                   Axes axes) {
   const Scene scene = load(bytes, name, axes);
   return FbxReader(*scene, name, companions).read();
 }
