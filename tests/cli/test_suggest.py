@@ -55,6 +55,15 @@ class Suggest(CommandTest):
                     outside = abs(shapes[i][1] - shapes[j][1])
                     self.assertTrue(large > 1.1 * small or outside > 0.04)
 
+    def test_volumes_rise_by_equal_factors(self):
+        choices = self.suggest()["suggestions"]
+        rows = [choices[:3], choices[3:6]]
+        for row in rows:  # a shape's volume varies as 1 / (1 - D)
+            self.assertEqual(len({choice["erosion"] for choice in row}), 1)
+            least, middle, most = (1 - choice["dilation"] for choice in row)
+            self.assertLess(most, 0.8 * least)
+            self.assertAlmostEqual(middle**2, least * most, delta=0.003)
+
     def volume(self, command):
         words = shlex.split(command)
         shape = self.out / "shape.stl"

@@ -72,6 +72,16 @@ TEST(Hollows, OfACrownAreFilled) {
   EXPECT_EQ(m.off_site_exact, kept.report.metrics.off_site_exact);
 }
 
+TEST(Hollows, CountForTheDilationOnAnyLattice) {
+  for (const Hollows choice : {Hollows::keep, Hollows::fill}) {
+    Options options = hollows(choice);
+    const double dilation = extract(hollow_crown(), options, device()).report.metrics.dilation;
+    options.voxel_size.reset();
+    options.preset = Preset::paper_64;
+    EXPECT_EQ(extract(hollow_crown(), options, device()).report.metrics.dilation, dilation);
+  }
+}
+
 TEST(Hollows, FillingLeavesTheOuterWallAlone) {
   Options options = hollows(Hollows::keep);
   for (const Mesher mesher : {Mesher::vdb, Mesher::bricks}) {

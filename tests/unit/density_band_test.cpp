@@ -282,6 +282,15 @@ TEST_P(Weights, LetTheBandEvaluateBothSidesOfEveryCrossing) {
   EXPECT_GT(crossings, 100);
 }
 
+TEST(Band, EvaluatesBothSidesOfACrossingBetweenRootBlocks) {
+  // The support ends before the next root block, whose first sample is outside.
+  const std::vector<Kernel> kernels{sphere({kRootEdge - 4.1, 5, 5}, 3.9f)};
+  const Band band = band_of(on_lattice(kernels, {1, {}}), {{0.05}});
+  EXPECT_GT(reference::density(kernels, {kRootEdge - 1, 5, 5}, 2), 0.05);
+  EXPECT_EQ(verdict(band, {kRootEdge - 1, 5, 5}), Verdict::evaluated);
+  EXPECT_EQ(verdict(band, {kRootEdge, 5, 5}), Verdict::evaluated);
+}
+
 TEST(Band, SeveralThresholdsAreDecidedEachAsAlone) {
   const auto kernels = random_kernels(100, 1, 0.6f);
   const KernelSet set = on_lattice(kernels, Lattice::near({0, 0, 0}, 0.015));

@@ -221,6 +221,23 @@ TEST(Rays, PassThroughWhatIsNotDrawn) {
   EXPECT_EQ(blocked, 1);
 }
 
+TEST(Rays, MeetACellOfPiecesThatStayAndPiecesThatGo) {
+  Device& cpu = device("vector");
+  Subject subject({sphere({0, 0, 0}, 10)}, 1, cpu);
+  std::vector<Coord> cells;
+  for (const Brick* brick : bricks_of(subject.field)) {
+    for (int s = 0; s < kBrickSamples; ++s) {
+      cells.push_back({brick->origin().x() + (s >> 6), brick->origin().y() + (s >> 3 & 7),
+                       brick->origin().z() + (s & 7)});
+    }
+  }
+  subject.grid->draw_only(cells, cells);
+  const VoxelRay ray{Vec3f(subject.lattice.local({-60, 0, 0})), {1, 0, 0}};
+  VoxelHit hit;
+  subject.exact(cpu).closest({&ray, 1}, {&hit, 1});
+  EXPECT_NEAR(hit.distance, 60 - 10 * std::sqrt(1 - std::sqrt(kThreshold)), 0.01);
+}
+
 TEST(Rays, AreBlockedByWhatLiesAboveT) {
   Device& cpu = device("vector");
   // N is 1 in the middle, twice T.

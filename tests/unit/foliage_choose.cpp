@@ -197,6 +197,25 @@ TEST(Choice, FruitIsPassedOver) {
             (std::vector<bool>{true, false}));
 }
 
+TEST(Choice, AFewCardsWithHolesAreNoFruit) {
+  Material sprays{.name = "b", .alpha_mode = AlphaMode::mask, .base_color_image = 0};
+  TreeModel tree =
+      model_of({{crown(), painted("a", kGreen)}, {cards({0, 4, 0}, 1.6f, 20), sprays}});
+  tree.images.push_back(alpha_image(64, opaque_inside(0.5, 0.5, 0.3, 0.3)));
+  EXPECT_EQ(taken(tree), (std::vector<bool>{true, true}));
+}
+
+TEST(Choice, EvidenceOfPlaceDoesNotDependOnWhereATreeStands) {
+  TreeModel tree = model_of({{trunk(), painted("a", kBrown)}, {crown(), painted("b", kGreen)}});
+  const LeafChoice here = choose_leaves(tree, {});
+  for (Instance& instance : tree.instances) instance.to_world[1][3] = -100;
+  const LeafChoice below = choose_leaves(tree, {});
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_NEAR(below.candidates[i].evidence.place, here.candidates[i].evidence.place, 1e-9);
+  }
+  EXPECT_GT(here.candidates[0].evidence.place, here.candidates[1].evidence.place + 0.3);
+}
+
 TEST(Choice, OfLevelsOfDetailTheFinestIsTaken) {
   const auto thing = [](const char* mesh, const char* node) {
     return Thing{cards({0, 4, 0}, 1), {.name = "Leaf"}, mesh, node};
@@ -235,6 +254,12 @@ TEST(Choice, ABillboardStandsForATree) {
   EXPECT_EQ(taken(model_of({board})), std::vector<bool>{true});
   const Thing cards_of_leaves{cards({0, 4, 0}, 1), {.name = "Leaf"}, "", "leaf_billboards"};
   EXPECT_EQ(taken(model_of({{trunk(), painted("wood", kBrown)}, cards_of_leaves})), kSecond);
+}
+
+TEST(Choice, ABillboardMayHaveANumberOfItsOwn) {
+  const Thing coarse{card(2, 2), {.name = "Leaf"}, "", "Oak_LOD0"};
+  const Thing board{card(3, 6), {.name = "Leaf"}, "", "Oak_LOD2_Billboard"};
+  EXPECT_EQ(taken(model_of({coarse, board})), (std::vector<bool>{true, false}));
 }
 
 TEST(Choice, ADoubtfulOneSaysSoAndNamesTheSecond) {

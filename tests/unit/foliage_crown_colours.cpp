@@ -48,6 +48,22 @@ TEST(CrownColours, AreToldApartTheOneOfMostLeavesFirst) {
   expect_near(colours->tones()[1], kRed, 1e-2f);
 }
 
+TEST(CrownColours, CountByWhatHolesLeave) {
+  Primitive red = coloured(cards({2, 0, 0}, 1, 200), kRed);
+  red.uvs.assign(red.positions.size(), {0.5f, 0.5f});  // where the image is whole
+  TreeModel tree = model_of({{coloured(cards({-2, 0, 0}, 1, 400), kGreen), {.name = "leaves"}},
+                             {std::move(red), {.name = "leaves"}}});
+  tree.images.push_back(alpha_image(64, opaque_inside(0.5, 0.5, 0.2, 0.2)));  // an eighth
+  for (Material& material : tree.materials) {
+    material.alpha_mode = AlphaMode::mask;
+    material.base_color_image = 0;
+  }
+  const auto colours = colours_of(tree);
+  ASSERT_TRUE(colours);
+  ASSERT_EQ(colours->tones().size(), 2u);
+  expect_near(colours->tones()[0], kRed, 1e-2f);
+}
+
 TEST(CrownColours, AreFourAtMost) {
   TreeModel tree = model_of({{cards({0, 0, 0}, 3, 600), {.name = "leaves"}}});
   Primitive& leaves = tree.primitives[0];

@@ -57,6 +57,20 @@ TEST(TreeMap, CarriesAKernelWithItsWeight) {
   }
 }
 
+TEST(TreeMap, StretchesNoWayByMoreThanItSays) {
+  std::mt19937 random(6);
+  std::normal_distribution<double> gauss;
+  for (const PlacedTree& tree : kTrees) {
+    double most = 0;
+    for (int i = 0; i < 2000; ++i) {
+      const Vec3d way = normalized(Vec3d(gauss(random), gauss(random), gauss(random)));
+      most = std::max(most, length(carried_by(tree, way) - tree.position));
+    }
+    EXPECT_LE(most, TreeMap(tree).stretch());
+    EXPECT_GE(2 * most, TreeMap(tree).stretch());
+  }
+}
+
 TEST(PlacedKernels, AddUpToTheDensitiesOfTheTrees) {
   ForestLevel level;
   level.trees = kTrees;

@@ -241,6 +241,24 @@ TEST(Fbx, TexturesOfOtherMachinesAreFoundBesideIt) {
   EXPECT_NE(tree.warnings[0].find("own folder"), std::string::npos) << tree.warnings[0];
 }
 
+TEST(Fbx, ATextureNamesItsTextureCoordinates) {
+  FbxBuilder file;
+  FbxRecord second = fbx_layer("UV", "UV", {0.5, 0, 0.5, 0, 0.5, 0, 0.5, 0});
+  second.values = {1};
+  second.children[1].values = {std::string("second")};
+  add_fbx_square(file).children.push_back(second);
+  add_fbx_model(file, kFbxModel, "Leaf");
+  file.connect(kFbxMesh, kFbxModel);
+  add_fbx_material(file, kFbxMaterial, "Leaf");
+  add_fbx_texture(file, kFbxTexture, "leaf.png", "DiffuseColor");
+  const auto read_uvs = [&] { return read_fbx_text(file.ascii()).primitives.at(0).uvs; };
+  EXPECT_EQ(std::ranges::count(read_uvs(), Vec2f(0, 1)), 1) << "the first, where it names none";
+  const std::string none;
+  file.objects.back().children.push_back(properties(
+      {{"P", {std::string("UVSet"), std::string("KString"), none, none, std::string("second")}}}));
+  for (const Vec2f uv : read_uvs()) EXPECT_EQ(uv, Vec2f(0.5f, 1));
+}
+
 TEST(Fbx, ColoursAreWithinZeroAndOne) {
   FbxBuilder file;
   add_fbx_square(file).children.push_back(

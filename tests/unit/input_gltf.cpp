@@ -251,6 +251,18 @@ TEST(Gltf, DecompressesMeshoptWithAFallbackBufferThatIsNotThere) {
   ASSERT_EQ(p.triangles.size(), 2u);
 }
 
+TEST(Gltf, UndoesTheExponentialFilterOfMeshopt) {
+  const GlbPrimitive plain = square();
+  GlbPrimitive filtered = plain;
+  meshopt_encodeFilterExp(filtered.positions.data(), filtered.positions.size(), sizeof(Vec3f), 15,
+                          &plain.positions[0].x);
+  GlbBuilder b;
+  b.add_node("n", b.add_mesh("m", {plain}));
+  compress_with_meshopt(b, filtered);
+  b.json["bufferViews"][0]["extensions"]["EXT_meshopt_compression"]["filter"] = "EXPONENTIAL";
+  EXPECT_EQ(read(b).primitives[0].positions, plain.positions);
+}
+
 TEST(Gltf, ReadsTextWithDataUriAndExternalBuffer) {
   const TemporaryFolder folder;
   GlbBuilder b;

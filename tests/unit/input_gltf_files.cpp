@@ -163,6 +163,11 @@ TEST_F(GltfFiles, LinksOutOfTheFolderAreNotFollowed) {
   ASSERT_EQ(tree.warnings.size(), 1u);
   EXPECT_NE(tree.warnings[0].find("leads out of the file's folder"), std::string::npos)
       << tree.warnings[0];
+  const TreeModel searched = read(square_with_image("textures/LINK.png"));
+  EXPECT_TRUE(searched.images.at(0).empty());
+  ASSERT_EQ(searched.warnings.size(), 1u);
+  EXPECT_NE(searched.warnings[0].find("leads out of the file's folder"), std::string::npos)
+      << searched.warnings[0];
   ReadOptions options;
   options.allow_outside = true;
   EXPECT_TRUE(read(square_with_image("link.png"), options).warnings.empty());

@@ -272,6 +272,19 @@ TEST(Obj, TakesHolesOfTheColourImage) {
   expect_one_warning(empty, {"nothing.png", "passed over"});
 }
 
+TEST(Obj, PlacesAnImageAsItsOptionsSay) {
+  const ObjFolder files;
+  files.write_image("leaf.png", {255, 0});
+  files.write("u.obj",
+              "mtllib t.mtl\nusemtl leaf\nv 0 0 0\nv 1 0 0\nv 1 1 0\nvt 1 0\nf 1/1 2/1 3/1\n");
+  for (const char* map : {"map_Kd", "map_d"}) {  // the only one, or that of the colour
+    files.write("t.mtl", std::string("newmtl leaf\n") + map + " -s 2 3 1 -o 0.5 0.25 0 leaf.png\n");
+    const TreeModel tree = read_tree(files.folder / "u.obj");
+    EXPECT_TRUE(tree.warnings.empty()) << map;
+    EXPECT_EQ(tree.primitives.at(0).uvs.at(0), Vec2f(2.5f, 0.75f)) << map;
+  }
+}
+
 TEST(Obj, FindsTexturesOfAnotherMachine) {
   const ObjFolder files;
   files.write_image("Textures/Leaf.PNG", {255, 0});
@@ -331,6 +344,18 @@ TEST(Obj, TakesOpacitiesThatCannotBeMeantAsOpaque) {
         read(std::string("newmtl b\nd 0.5\nnewmtl a\n") + at_odds + "\n", both);
     expect_one_warning(opaque, {"contradict each other", "opaque: \"a\""});
     EXPECT_EQ(material_named(opaque, "a").base_color[3], 1);
+  }
+}
+
+TEST(Obj, JudgesTheOpacitiesOfEachLibraryAlone) {
+  const ObjFolder files;
+  files.write("sound.mtl", "newmtl a\nd 0.5\n");
+  files.write("odd.mtl", "newmtl b\nTr 1\n");
+  for (const char* both : {"mtllib sound.mtl odd.mtl\n", "mtllib odd.mtl sound.mtl\n"}) {
+    const TreeModel tree = files.read(both, {"a", "b"});
+    expect_one_warning(tree, {"\"odd.mtl\": ", "every material fully transparent"});
+    EXPECT_EQ(material_named(tree, "a").base_color[3], 0.5f);
+    EXPECT_EQ(material_named(tree, "b").base_color[3], 1);
   }
 }
 

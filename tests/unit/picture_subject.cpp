@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
+#include <openvdb/openvdb.h>
 
 #include <algorithm>
 #include <cmath>
@@ -109,6 +110,30 @@ TEST(Views, GoRoundTheMiddleOfTheSubject) {
   EXPECT_NEAR(length(eye(0) - (kMiddle + Vec3d(0, 0, 3))), 0, 1e-5);
   EXPECT_NEAR(length(eye(0.25) - (kMiddle + Vec3d(3, 0, 0))), 0, 1e-5);
   EXPECT_NEAR(length(eye(0.5) - (kMiddle + Vec3d(0, 0, -3))), 0, 1e-5);
+}
+
+TEST(Views, OfADensityAreInTheUnitsOfItsFile) {
+  openvdb::initialize();
+  const auto grid = openvdb::FloatGrid::create(0.0f);
+  for (int i = 0; i < 16 * 16 * 16; ++i) {  // a ball of radius 2, in voxels of half a unit
+    const Vec3d p((i >> 8) - 7.5, (i >> 4 & 15) - 7.5, (i & 15) - 7.5);
+    const double n = 2 - length(p) / 4;
+    if (n > 0) grid->tree().setValue({i >> 8, i >> 4 & 15, i & 15}, static_cast<float>(n));
+  }
+  grid->setTransform(openvdb::math::Transform::createLinearTransform(0.5));
+  grid->transform().postTranslate(openvdb::Vec3d(100, 0, 0));
+  const TemporaryFolder folder;
+  openvdb::io::File((folder / "ball.vdb").string()).write({grid});
+  PictureOptions options;
+  options.width = options.height = 9;
+  const Vec3d middle(100 + 3.75, 3.75, 3.75);
+  for (const Surfacing surfacing : {Surfacing::direct, Surfacing::mesh}) {
+    const Subject ball = field_subject(folder / "ball.vdb", 1.0, surfacing, device());
+    options.camera = View{.eye = middle + Vec3d(0, 0, 20), .target = middle, .angle = 30};
+    EXPECT_EQ(draw(ball, options, device()).buffers->object[4 * 9 + 4], render::Object::foliage);
+    std::get<View>(options.camera).target.x = 0;
+    EXPECT_TRUE(draw(ball, options, device()).blank);
+  }
 }
 
 TEST(Drawing, TellsHowFarItIs) {

@@ -9,6 +9,7 @@
 #include "leafhull/error.h"
 #include "leaves/sheets.h"
 #include "leaves_models.h"
+#include "points/join.h"
 #include "points/leaf_points.h"
 #include "unit/points_measures.h"
 
@@ -116,6 +117,47 @@ TEST(LeafPoints, OfALeafThatIsOnePartKeepsItsEllipse) {
   EXPECT_EQ(points.points[0].radius_major, leaves.vertices[0].radius_major);
   EXPECT_EQ(points.points[0].radius_minor, leaves.vertices[0].radius_minor);
   EXPECT_NEAR(length(points.points[0].position), 0, 1e-6);
+}
+
+TEST(LeafPoints, OfALongStripAreNoLongerThanTwiceTheSpacing) {
+  const LeafPoints points = area_points(leaves_of(tree_of({card(19.5f, 0.04f)})), 1);
+  EXPECT_EQ(points.points.size(), 10u);
+  EXPECT_NEAR(area_of(points.points), 0.78, 1e-6);
+}
+
+/// Parts of this area at corners of a cell of edge 1 and, if there are more than four, in its
+/// middle.
+std::vector<LeafPoint> in_a_cell(std::size_t count, double area) {
+  std::vector<LeafPoint> parts;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Vec3d corner(i & 1 ? 0.9 : 0.1, i & 2 ? 0.9 : 0.1, 0.5);
+    const Vec3d place = i < 4 ? corner : Vec3d(0.5, 0.5, 0.5);
+    parts.push_back({place, {0, 0, 1}, {1, 0, 0}, 0.5f, 0.5f, area});
+  }
+  return parts;
+}
+
+TEST(LeafPoints, OfAFullCellAreJoinedButForThoseOfASheet) {
+  EXPECT_EQ(join_in_cells(in_a_cell(4, 0.9), 1).size(), 4u);
+  EXPECT_EQ(join_in_cells(in_a_cell(5, 0.9), 1).size(), 1u);
+  EXPECT_EQ(join_in_cells(in_a_cell(5, 0.5), 1).size(), 5u) << "it is not full";
+  EXPECT_EQ(join_in_cells(in_a_cell(5, 0.2), 1).size(), 1u) << "they are small";
+}
+
+TEST(LeafPoints, SamplesLieInTheCrownIfAnyLeafDoes) {
+  Primitive far = card(2, 2);
+  for (Vec3f& p : far.positions) p = p + Vec3f(10, 0, 0);
+  LeafSet leaves = leaves_of(tree_of({card(2, 2), far}));
+  const auto beyond = [&] {
+    const std::vector<Vec3d> samples = area_points(leaves, 0.5).samples;
+    const auto count = std::ranges::count_if(samples, [](Vec3d p) { return p.x > 5; });
+    return static_cast<double>(count) / static_cast<double>(samples.size());
+  };
+  EXPECT_NEAR(beyond(), 0.5, 1e-3);
+  leaves.crown = {{-1, -1, 0}, {1, 1, 0}};
+  EXPECT_EQ(beyond(), 0);
+  leaves.crown = {{4, 4, 4}, {5, 5, 5}};
+  EXPECT_NEAR(beyond(), 0.5, 1e-3);
 }
 
 TEST(LeafPoints, AreAlikeOnAlikeLeaves) {

@@ -287,14 +287,12 @@ TEST_F(RenderMesh, RaysInPacketsFindWhatSingleRaysFind) {
   EXPECT_LT(hits, 1000);
 }
 
-// A square of two by two texels, two of which are holes.
-TEST(RenderLeaf, RaysPassThroughTheHolesOfATexture) {
+/// A square of side 2 that faces the camera, with an image of 2 x 2 texels.
+TreeModel textured_square(const Material& material, std::vector<std::uint8_t> rgba) {
   TreeModel tree;
-  tree.images.push_back({2, 2, {0, 255, 0, 255, 0, 0, 0, 0, 0, 0, 0, 0, 255, 0, 0, 255}});
-  Material material;
-  material.alpha_mode = AlphaMode::mask;
-  material.base_color_image = 0;
+  tree.images.push_back({2, 2, std::move(rgba)});
   tree.materials.push_back(material);
+  tree.materials[0].base_color_image = 0;
   Primitive square;
   square.material = 0;
   square.positions = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
@@ -302,6 +300,14 @@ TEST(RenderLeaf, RaysPassThroughTheHolesOfATexture) {
   square.triangles = {{0, 1, 2}, {0, 2, 3}};
   tree.primitives.push_back(square);
   tree.instances.push_back({});
+  return tree;
+}
+
+TEST(RenderLeaf, RaysPassThroughTheHolesOfATexture) {
+  Material material;
+  material.alpha_mode = AlphaMode::mask;
+  const TreeModel tree =  // two of the texels are holes
+      textured_square(material, {0, 255, 0, 255, 0, 0, 0, 0, 0, 0, 0, 0, 255, 0, 0, 255});
   const DeviceHandle embree = open_embree();
   const Scene scene(embree.get(), {make_surface(embree.get(), tree, {}, Look::leaf, Placement{})});
   const MeshTarget target(scene);
@@ -314,6 +320,25 @@ TEST(RenderLeaf, RaysPassThroughTheHolesOfATexture) {
   EXPECT_EQ(buffers.object[at(0.6f, 0.6f)], Object::paper);
   EXPECT_EQ(buffers.object[at(-0.6f, -0.6f)], Object::paper);
   EXPECT_LT(apart(buffers.color[at(-0.6f, 0.6f)], {0, 1, 0}), 0.01f);
+}
+
+TEST(RenderLeaf, HolesAreBelowTheCutoffOfAMaskAndBelowHalfOfABlend) {
+  // Three of four texels, clockwise from the top left: 0.2, 0.4 and 0.6 opaque.
+  const std::vector<std::uint8_t> rgba{0, 255, 0, 51,  0, 255, 0, 102,
+                                       0, 255, 0, 255, 0, 255, 0, 153};
+  const auto holes = [&](AlphaMode mode, double cutoff) {
+    Material material;
+    material.alpha_mode = mode;
+    material.alpha_cutoff = cutoff;
+    const TreeModel tree = textured_square(material, rgba);
+    const DeviceHandle embree = open_embree();
+    const auto surface = make_surface(embree.get(), tree, {}, Look::leaf, Placement{});
+    return std::array{surface->is_hole({0.25f, 0.25f}), surface->is_hole({0.75f, 0.25f}),
+                      surface->is_hole({0.75f, 0.75f})};
+  };
+  EXPECT_EQ(holes(AlphaMode::mask, 0.3), (std::array{true, false, false}));
+  EXPECT_EQ(holes(AlphaMode::mask, 0.7), (std::array{true, true, true}));
+  EXPECT_EQ(holes(AlphaMode::blend, 0.3), (std::array{true, true, false}));
 }
 
 TEST(RenderWood, HasTheColoursOfItsVertices) {

@@ -171,6 +171,48 @@ TEST(BrickMesher, PairsAcrossTheDiagonalOfAFaceAreTwo) {
   }
 }
 
+/// Two cells side by side along an axis: bit 4 a + 2 b + c says whether sample a along the axis, b
+/// and c along the next ones, is inside.
+Field two_cells(unsigned axis, unsigned samples) {
+  Field field({}, 1.0);
+  const auto density = [&](Vec3d p) {
+    const std::array<double, 3> at{p.x - 2, p.y - 2, p.z - 2};
+    const double a = at[axis], b = at[(axis + 1) % 3], c = at[(axis + 2) % 3];
+    const bool is_theirs = std::min({a, b, c}) >= 0 && a <= 2 && std::max(b, c) <= 1;
+    return is_theirs && (samples >> static_cast<unsigned>(4 * a + 2 * b + c) & 1) ? 2.0 : 0.0;
+  };
+  add_brick(field, density, {0, 0, 0});
+  return field;
+}
+
+TEST(BrickMesher, TwoCellsAreManifoldHoweverTheyAreFilled) {
+  int alone = 0;  // pairs with a face that only one of them meets twice
+  for (unsigned axis = 0; axis < 3; ++axis) {
+    const Coord next{axis == 0 ? 3 : 2, axis == 1 ? 3 : 2, axis == 2 ? 3 : 2};
+    for (unsigned samples = 0; samples < 1 << 12; ++samples) {
+      const Field field = two_cells(axis, samples);
+      const Polygons polygons = mesh_bricks(field);
+      EXPECT_TRUE(is_manifold(polygons)) << axis << ' ' << samples;
+      EXPECT_EQ(euler_characteristic(polygons) % 2, 0) << axis << ' ' << samples;
+      const bool first = cell::kFaceMetTwice[inside_of(field, {2, 2, 2})] == 2 * axis + 1;
+      alone += first != (cell::kFaceMetTwice[inside_of(field, next)] == 2 * axis);
+    }
+  }
+  EXPECT_GT(alone, 0);
+}
+
+TEST(BrickMesher, APairAcrossADiagonalOnAPlateIsOneWithIt) {
+  // The cell above meets the face between twice; that below has a patch at each of its corners
+  // outside, so the pair is not parted.
+  for (unsigned axis = 0; axis < 3; ++axis) {
+    for (const unsigned plate : {0b1111'1001'0000u, 0b0000'1001'1111u}) {
+      const Field field = two_cells(axis, plate);
+      expect_good(mesh_bricks(field), field);
+      EXPECT_EQ(euler_characteristic(mesh_bricks(field)), 2);
+    }
+  }
+}
+
 TEST(BrickMesher, NoiseIsManifold) {
   std::set<unsigned> cases;
   int parted = 0;  // the number of pairs of cells whose surface is parted
