@@ -22,13 +22,6 @@
 
 namespace leafhull {
 
-namespace render {
-struct Buffers;
-}
-namespace watercolour {
-struct Style;
-}
-
 enum class Look { phong, watercolour, normals, depth };
 enum class Surfacing { direct, mesh };  ///< rays through the density itself, or a mesh of it
 enum class Viewpoint { front, three_quarter, top };
@@ -49,17 +42,24 @@ struct View {
 /// @throws Error input: the file, the key in it and what is wrong.
 View read_view(const std::filesystem::path& file, const ReadOptions& options = {});
 
-/// How to paint a watercolour; only leafhull's own painter looks inside.
-using WatercolourStyle = std::shared_ptr<const watercolour::Style>;
-
 /// The styles that leafhull brings, the default first.
 std::span<const std::string_view> watercolour_styles();
 
-/// A style by its name or from a .json file; `detail`, 0..1, replaces its own where given.
-/// @throws Error usage: no such name, or a key of the file that is wrong; input: the file cannot be
-/// read.
-WatercolourStyle read_watercolour_style(const std::string& name_or_file,
-                                        std::optional<double> detail = {});
+/// How to paint a watercolour.
+class WatercolourStyle {
+ public:
+  /// A style by its name or from a .json file; `detail`, 0..1, replaces its own where given.
+  /// @throws Error usage: no such name, or a key of the file that is wrong; input: the file cannot
+  /// be read.
+  explicit WatercolourStyle(const std::string& name_or_file, std::optional<double> detail = {});
+
+  struct Keys;
+  /// The part that only src/picture uses.
+  const Keys& keys() const { return *keys_; }
+
+ private:
+  std::shared_ptr<const Keys> keys_;
+};
 
 /// The keys of a style file as a Markdown table: name, range, the default style's value, meaning.
 std::string watercolour_style_table();
@@ -113,18 +113,20 @@ struct PictureOptions {
   Look look = Look::phong;
   int width = 1024, height = 1024;  ///< pixels, 1 to kLargestSide each
   std::variant<Viewpoint, View> camera = Viewpoint::three_quarter;
-  double turn = 0;              ///< turns the camera about the subject, in whole turns
-  bool turntable = false;       ///< the named viewpoint fits the subject at every turn
-  WatercolourStyle style = {};  ///< none: the default one
+  double turn = 0;         ///< turns the camera about the subject, in whole turns
+  bool turntable = false;  ///< the named viewpoint fits the subject at every turn
+  std::optional<WatercolourStyle> style = {};  ///< empty: the default one
 };
 
 inline constexpr int kLargestSide = 16384;
 
 struct Rendering {
   Picture picture;
-  std::shared_ptr<const render::Buffers> buffers;  ///< what encode_exr takes
-  bool blank = false;                              ///< nothing is in view
-  std::vector<StageTime> seconds;                  ///< in order, without a total
+  struct Buffers;  ///< what pixels see, for src/picture
+
+  std::shared_ptr<const Buffers> buffers;  ///< what encode_exr takes
+  bool blank = false;                      ///< nothing is in view
+  std::vector<StageTime> seconds;          ///< in order, without a total
 };
 
 /// A picture of the subject: the same bytes for the same subject, options and device.

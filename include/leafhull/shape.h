@@ -36,9 +36,6 @@ struct Mesh {
   std::optional<Vec3f> colour;  ///< its material's, linear; none: leafhull's green
 };
 
-/// The sampled density; only leafhull's own stages look inside.
-class Field;
-
 struct DensityStatistics {  ///< N_iso over the leaf points, weighted by area
   double mean = 0, variance = 0, p1 = 0, p2 = 0;
 };
@@ -85,6 +82,8 @@ struct Report {
   std::uint64_t peak_memory_bytes = 0;  ///< of the process; set by the caller
   std::vector<std::string> warnings;
 };
+
+  class Field;  ///< the sampled density, for leafhull's own stages
 
 struct Shape {
   Mesh mesh;

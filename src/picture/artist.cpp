@@ -11,12 +11,12 @@
 #include "leafhull/error.h"
 #include "picture/check_picture.h"
 #include "picture/parts.h"
+#include "picture/style.h"
 #include "pipeline/stopwatch.h"
 #include "render/draw_buffers.h"
 #include "render/exr.h"
 #include "render/light.h"
 #include "render/shade.h"
-#include "watercolour/style.h"
 
 namespace leafhull {
 namespace {
@@ -135,11 +135,11 @@ Picture Artist::shade(const Subject::Parts& parts, const render::Buffers& buffer
     case Look::watercolour: {
       if (!painter_) painter_.emplace(device_);
       const WatercolourStyle style =
-          options.style ? options.style
-                        : read_watercolour_style(std::string(watercolour_styles().front()));
+          options.style ? *options.style
+                        : WatercolourStyle(std::string(watercolour_styles().front()));
       const auto strokes = strokes_of(parts, camera, options.width, options.height);
       const std::vector<Vec3f> tones = tones_of(parts);
-      return painter_->paint(buffers, {strokes, tones, mark_of(parts.leaf_kind)}, *style);
+      return painter_->paint(buffers, {strokes, tones, mark_of(parts.leaf_kind)}, style.keys());
     }
     case Look::phong:
       break;
@@ -161,11 +161,11 @@ Rendering Artist::draw(const Subject& subject, const PictureOptions& options,
   };
   start("rays", 0);
   const render::Camera camera = camera_of(parts, options);
-  const auto buffers = std::make_shared<render::Buffers>(
+  const auto buffers = std::make_shared<Rendering::Buffers>(Rendering::Buffers{
       render::draw_buffers(parts.targets, parts.surroundings(), camera, options.width,
                            options.height, {}, [&](double done) {
                              if (progress) progress("rays", rays * done);
-                           }));
+                           })});
   colour_foliage(parts, *buffers);
   start("paint", rays);
   rendering.picture = shade(parts, *buffers, camera, options);

@@ -11,8 +11,8 @@
 #include <string>
 
 #include "leafhull/render.h"
+#include "picture/artist.h"
 #include "property/extractions.h"
-#include "render/buffers.h"
 
 namespace leafhull {
 namespace {
@@ -148,7 +148,7 @@ double change(const Rendering& a, const Rendering& b) {
 WatercolourStyle classic_with(const std::string& keys) {
   const auto file = std::filesystem::path(testing::TempDir()) / "leafhull-style.json";
   std::ofstream(file) << "{" << keys << "}";
-  WatercolourStyle style = read_watercolour_style(file.string());
+  WatercolourStyle style(file.string());
   std::filesystem::remove(file);
   return style;
 }

@@ -14,9 +14,9 @@
 #include "picture/check_picture.h"
 #include "picture/files.h"
 #include "picture/parts.h"
+#include "picture/style.h"
 #include "render/buffers.h"
 #include "temporary_folder.h"
-#include "watercolour/style.h"
 
 namespace leafhull::test {
 namespace {
@@ -373,9 +373,9 @@ TEST(PictureSizes, TheSheetOfFigure17MustFitAFile) {
 
 TEST(WatercolourStyles, TakeTheirDetailFromTheCall) {
   EXPECT_EQ(watercolour_styles().front(), "classic");
-  EXPECT_EQ(read_watercolour_style("wet", 0.25)->detail, 0.25f);
-  EXPECT_NE(read_watercolour_style("wet")->seed, 0u);
-  EXPECT_THROW(read_watercolour_style("wett"), Error);
+  EXPECT_EQ(WatercolourStyle("wet", 0.25).keys().detail, 0.25f);
+  EXPECT_NE(WatercolourStyle("wet").keys().seed, 0u);
+  EXPECT_THROW(WatercolourStyle("wett"), Error);
 }
 
 }  // namespace
