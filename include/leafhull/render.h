@@ -17,6 +17,7 @@
 #include "leafhull/option_row.h"
 #include "leafhull/options.h"
 #include "leafhull/picture.h"
+#include "leafhull/progress.h"
 #include "leafhull/shape.h"
 #include "leafhull/tree.h"
 
@@ -121,9 +122,9 @@ struct PictureOptions {
 inline constexpr int kLargestSide = 16384;
 
 struct Rendering {
-  Picture picture;
   struct Buffers;  ///< what pixels see, for src/picture
 
+  Picture picture;
   std::shared_ptr<const Buffers> buffers;  ///< what encode_exr takes
   bool blank = false;                      ///< nothing is in view
   std::vector<StageTime> seconds;          ///< in order, without a total
@@ -149,14 +150,6 @@ struct PictureSummary {
 
 /// Whose values a plate's rows use: leafhull's styles of leaf area, or the paper's.
 enum class Plate { own, paper };
-
-/// The plate of the paper's Figure 17: thin, fat and the previous method, in Phong shading and in
-/// watercolour. Each row sets the method and the style, whose values the rest of `options`
-/// overrides; `look` and `turn` do not count.
-/// @throws Error as extract and draw do.
-Picture figure17(const std::shared_ptr<const TreeModel>& tree, const LeafSet& leaves,
-                 const Options& options, Plate plate, Surfacing surfacing,
-                 const PictureOptions& picture, Device& device, const Progress& progress = {});
 
 /// How a file is drawn.
 enum class Drawn { tree, shape };
@@ -220,6 +213,7 @@ struct PicturePlan {
 PicturePlan plan_pictures(const RenderOptions& options, const std::filesystem::path& subject,
                           const ReadOptions& reading = {});
 
+/// Fails before any work is done where write_pictures() or write_figure17() would fail later.
 /// @throws Error usage: the pictures need more memory than the device has, and the largest size
 /// that fits.
 void check_device(const PicturePlan& plan, const DeviceInfo& device);
@@ -227,10 +221,19 @@ void check_device(const PicturePlan& plan, const DeviceInfo& device);
 /// Draws and writes, one file after the other, each whole or not at all. Several subjects stand in
 /// one picture, from left to right, each of the plan's size. The frames of a turntable are
 /// numbered, picture-0001.png; beside them comes picture.mp4 where ffmpeg is on the PATH.
-/// @param progress `done` is the share of all pictures.
+/// @param progress `done` is the share of all pictures; frames are counted.
 /// @throws Error as draw does; usage: no subject, or several where the plan has a .exr file;
 /// output: which file and why.
 PictureSummary write_pictures(std::span<const Subject> subjects, const PicturePlan& plan,
                               Device& device, const Progress& progress = {});
+
+/// Draws the plan's plate, the paper's Figure 17, and writes it: thin, fat and the previous method,
+/// in Phong shading and in watercolour. Each row sets the method and the style, whose values the
+/// rest of `options` overrides.
+/// @param progress `done` is the share of the plate.
+/// @throws Error as extract and draw do; usage: the plan has no plate; output: why.
+void write_figure17(const std::shared_ptr<const TreeModel>& tree, const LeafSet& leaves,
+                    const Options& options, Surfacing surfacing, const PicturePlan& plan,
+                    Device& device, const Progress& progress = {});
 
 }  // namespace leafhull

@@ -3,15 +3,14 @@
 
 #include <array>
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "leafhull/device.h"
 #include "leafhull/leaves.h"
 #include "leafhull/options.h"
+#include "leafhull/progress.h"
 #include "leafhull/vec.h"
 
 namespace leafhull {
@@ -83,18 +82,15 @@ struct Report {
   std::vector<std::string> warnings;
 };
 
+struct Shape {
   class Field;  ///< the sampled density, for leafhull's own stages
 
-struct Shape {
   Mesh mesh;
   std::vector<Kernel> kernels;           ///< one per leaf point
   std::vector<float> isotropic_density;  ///< N_iso(c_j), one per kernel
   std::shared_ptr<const Field> field;
   Report report;
 };
-
-/// Called on the caller's thread when a stage starts and as it proceeds; `done` is from 0 to 1.
-using Progress = std::function<void(std::string_view stage, double done)>;
 
 /// The abstract shape of a tree's leaves: the stages of Figure 8, one after the other. SPEC: 2
 /// to 6.

@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cstdint>
-#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -11,7 +10,9 @@
 #include "leafhull/device.h"
 #include "leafhull/leaves.h"
 #include "leafhull/options.h"
+#include "leafhull/output.h"
 #include "leafhull/picture.h"
+#include "leafhull/progress.h"
 #include "leafhull/shape.h"
 
 namespace leafhull {
@@ -130,6 +131,7 @@ std::vector<Verdict> verdicts(const ReadingStudy& study, const BandStudy* band =
 /// The paper's evaluation of one tree under every reading. T is 2, R_max 1.5 crown units and
 /// lambda_R 0.7 unless they vary or are fitted; there are 64 voxels except in Table 2. Takes tens
 /// of seconds.
+/// @param progress `done` is the share of all the work, and even.
 /// @throws Error as extract does, except for an empty surface, which is a result.
 TreeStudy study_tree(const LeafSet& leaves, const std::string& name, Device& device,
                      const Progress& progress = {});
@@ -137,6 +139,6 @@ TreeStudy study_tree(const LeafSet& leaves, const std::string& name, Device& dev
 /// Writes report.html (with curves if gnuplot is installed) and study.json into `folder`, or
 /// neither. Makes the folder if it is missing.
 /// @throws Error output: which file and why.
-void write_study(const Study& study, const std::filesystem::path& folder);
+void write_study(const Study& study, const OutputFolder& folder);
 
 }  // namespace leafhull

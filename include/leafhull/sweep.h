@@ -3,8 +3,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <filesystem>
-#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -16,6 +14,7 @@
 #include "leafhull/options.h"
 #include "leafhull/output.h"
 #include "leafhull/picture.h"
+#include "leafhull/progress.h"
 #include "leafhull/shape.h"
 
 namespace leafhull {
@@ -48,8 +47,8 @@ struct SweepPlan {
 
 /// Where a sweep is kept.
 struct SweepFolder {
-  std::filesystem::path path;  ///< made where it does not exist
-  bool restart = false;        ///< first removes what another sweep left there
+  OutputFolder folder;   ///< made where it does not exist
+  bool restart = false;  ///< first removes what another sweep left there
 };
 
 /// A summary of one run of a sweep.
@@ -62,21 +61,17 @@ struct SweepSummary {
   std::vector<std::string> warnings;
 };
 
-/// Called before the first combination with the count that an earlier run finished, and as the
-/// sweep goes on.
-using SweepProgress =
-    std::function<void(std::string_view stage, std::size_t done, std::size_t combinations)>;
-
 /// Extracts every combination of `plan` and keeps in `folder`: sweep.csv and sweep.json, a row per
 /// combination in the order of `plan`; plot-OPTION.svg for every swept number; a picture of each
 /// combination in pictures/, and contact-sheet.png with all. Each finished
 /// combination is on disk at once (sweep.jsonl), so a sweep that was cut off resumes there. A row's
 /// seconds are the time it added to the rows before it: neighbours share their work.
+/// @param progress counts combinations, those of earlier runs from the start.
 /// @throws Error usage: the folder holds another sweep, or files of these names from elsewhere;
 ///         output: which file and why; and what extract_series throws.
 SweepSummary run_sweep(const LeafSet& leaves, const SweepPlan& plan, Device& device,
                        const SweepFolder& folder, const RunDescription& run,
-                       const SweepProgress& progress = {});
+                       const Progress& progress = {});
 
 /// One choice of erosion and dilation, and its result.
 struct Suggestion {

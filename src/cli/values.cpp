@@ -233,6 +233,13 @@ std::string bytes(std::uint64_t value) {
                           : print("%.*g GiB", 3, mebibytes / 1024);
 }
 
+std::string per_second(std::uint64_t leaf_vertices, double seconds) {
+  const double pace = seconds > 0 ? static_cast<double>(leaf_vertices) / seconds : 0;
+  const std::string text =
+      pace < 1e6 ? count(static_cast<std::uint64_t>(pace)) : number(pace / 1e6, 3) + " M";
+  return text + " leaf vertices/s";
+}
+
 std::string count(std::uint64_t value) {
   std::string text = std::to_string(value);
   for (auto at = static_cast<std::ptrdiff_t>(text.size()) - 3; at > 0; at -= 3) {

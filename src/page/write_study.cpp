@@ -14,7 +14,8 @@ namespace leafhull {
 
 namespace fs = std::filesystem;
 
-void write_study(const Study& study, const fs::path& folder) {
+void write_study(const Study& study, const OutputFolder& into) {
+  const fs::path& folder = into.path();
   const std::vector<TreePlots> plots = draw_plots(study);
   std::error_code error;
   const bool is_new = fs::create_directories(folder, error);

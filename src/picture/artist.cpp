@@ -155,17 +155,18 @@ Rendering Artist::draw(const Subject& subject, const PictureOptions& options,
   const Subject::Parts& parts = subject.parts();
   Rendering rendering;
   const double rays = share_of_rays(options.look);
+  const auto tell = [&](std::string_view stage, double done) {
+    if (progress) progress({.stage = stage, .done = done});
+  };
   const auto start = [&](std::string_view stage, double done) {
     watch.start(stage);
-    if (progress) progress(stage, done);
+    tell(stage, done);
   };
   start("rays", 0);
   const render::Camera camera = camera_of(parts, options);
   const auto buffers = std::make_shared<Rendering::Buffers>(Rendering::Buffers{
       render::draw_buffers(parts.targets, parts.surroundings(), camera, options.width,
-                           options.height, {}, [&](double done) {
-                             if (progress) progress("rays", rays * done);
-                           })});
+                           options.height, {}, [&](double done) { tell("rays", rays * done); })});
   colour_foliage(parts, *buffers);
   start("paint", rays);
   rendering.picture = shade(parts, *buffers, camera, options);

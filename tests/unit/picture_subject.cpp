@@ -114,14 +114,18 @@ TEST(Views, GoRoundTheMiddleOfTheSubject) {
 TEST(Drawing, TellsHowFarItIs) {
   const Subject subject = shape_subject(cube());
   std::vector<std::pair<std::string, double>> told;
-  const Progress progress = [&](std::string_view stage, double done) {
-    told.emplace_back(stage, done);
+  std::size_t finished = 0, all = 0;
+  const Progress progress = [&](const Advance& now) {
+    told.emplace_back(now.stage, now.done);
+    EXPECT_GE(now.finished, finished);
+    finished = now.finished, all = now.all;
   };
   draw(subject, facing_the_cube(640, 640), device(), progress);
   const auto by_share = [](const auto& a, const auto& b) { return a.second < b.second; };
   EXPECT_TRUE(std::is_sorted(told.begin(), told.end(), by_share));
   EXPECT_EQ(told.front(), std::pair(std::string("rays"), 0.0));
   EXPECT_EQ(told.back().first, "paint");
+  EXPECT_EQ(all, 0u) << "one picture is not counted";
   const auto within = std::count_if(told.begin(), told.end(), [](const auto& step) {
     return step.first == "rays" && step.second > 0 && step.second < 0.8;
   });
@@ -133,6 +137,8 @@ TEST(Drawing, TellsHowFarItIs) {
                  device(), progress);
   EXPECT_TRUE(std::is_sorted(told.begin(), told.end(), by_share));
   EXPECT_EQ(told.back(), std::pair(std::string("write"), 1.0));
+  EXPECT_EQ(finished, 3u);
+  EXPECT_EQ(all, 3u);
 }
 
 TEST(Drawing, RefusesNoSubjectAndTheBuffersOfTwo) {
