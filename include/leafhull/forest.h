@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "leafhull/api.h"
 #include "leafhull/device.h"
 #include "leafhull/option_row.h"
 #include "leafhull/options.h"
@@ -25,8 +26,8 @@ class Ranks;
 enum class Merge { none, canopy };         ///< each model once with instances, or one surface
 enum class ControlScope { model, scene };  ///< what m and s are taken over
 
-std::span<const std::string_view> names(Merge);
-std::span<const std::string_view> names(ControlScope);
+LEAFHULL_API std::span<const std::string_view> names(Merge);
+LEAFHULL_API std::span<const std::string_view> names(ControlScope);
 
 /// Part `part`, 1 to `parts`, of a forest's tiles.
 struct TileRange {
@@ -49,15 +50,15 @@ struct ForestOptions {
   std::optional<std::filesystem::path> single;
 };
 
-void describe(OptionLine& line, const TileRange& value);
-void check_value(const OptionLine& line, const TileRange& value);
+LEAFHULL_API void describe(OptionLine& line, const TileRange& value);
+LEAFHULL_API void check_value(const OptionLine& line, const TileRange& value);
 
 using ForestOptionRow =
     RowOver<ForestOptions, bool, int, ByteCount, Merge, ControlScope, std::optional<int>,
             std::optional<TileRange>, std::optional<std::filesystem::path>>;
 
 /// The options of a forest beside those of its trees' shape.
-std::span<const ForestOptionRow> forest_table();
+LEAFHULL_API std::span<const ForestOptionRow> forest_table();
 
 /// A forest that can be computed and kept: plan_forest() has checked it.
 class ForestPlan {
@@ -77,7 +78,7 @@ class ForestPlan {
 /// Checks the options, the shape's too, and the folder before any work is done.
 /// @throws Error usage: a value out of range, or two options that contradict each other;
 ///         output: the folder could not be made or written to.
-ForestPlan plan_forest(ForestOptions options, const std::filesystem::path& folder);
+LEAFHULL_API ForestPlan plan_forest(ForestOptions options, const std::filesystem::path& folder);
 
 /// A finished tile.
 struct TileRow {
@@ -121,11 +122,12 @@ struct ForestSummary {
 /// @throws Error usage: a folder that holds another forest, or one that is not finished, without
 ///         `resume`; more memory or more tiles than there is room for; input: a model;
 ///         empty: no tree has a surface; output; device.
-ForestSummary run_forest(const Scene& scene, const ForestPlan& plan, Device& device, Ranks& ranks,
-                         const Progress& progress = {});
+LEAFHULL_API ForestSummary run_forest(const Scene& scene, const ForestPlan& plan, Device& device,
+                                      Ranks& ranks, const Progress& progress = {});
 
 /// The report as one JSON object, schema "leafhull-forest-report/1".
-std::string forest_report_json(const ForestSummary& summary, const ForestOptions& options,
-                               const RunDescription& run);
+LEAFHULL_API std::string forest_report_json(const ForestSummary& summary,
+                                            const ForestOptions& options,
+                                            const RunDescription& run);
 
 }  // namespace leafhull

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "leafhull/api.h"
 #include "leafhull/tree.h"
 #include "leafhull/vec.h"
 
@@ -133,13 +134,13 @@ struct LeafChoice {
   std::vector<std::string> options;  ///< those that would take the likeliest candidates
   std::vector<std::string> warnings;
 
-  bool any() const;
+  LEAFHULL_API bool any() const;
 };
 
 /// Weighs what names, alpha, colour, shape and place say, or does as the options ask. SPEC: 1.
 /// @throws Error usage: an option is out of range.
-LeafChoice choose_leaves(const TreeModel& tree, std::span<const Instance> instances,
-                         const LeafOptions& options);
+LEAFHULL_API LeafChoice choose_leaves(const TreeModel& tree, std::span<const Instance> instances,
+                                      const LeafOptions& options);
 inline LeafChoice choose_leaves(const TreeModel& tree, const LeafOptions& options) {
   return choose_leaves(tree, tree.instances, options);
 }
@@ -148,14 +149,15 @@ inline LeafChoice choose_leaves(const TreeModel& tree, const LeafOptions& option
 /// p. 51.
 /// @throws Error input where there are none (the file's names are listed) or nothing is usable;
 ///         usage where an option is out of range.
-LeafSet find_leaves(const TreeModel& tree, const LeafOptions& options);
+LEAFHULL_API LeafSet find_leaves(const TreeModel& tree, const LeafOptions& options);
 
 /// Finds the leaves of an earlier choice.
-LeafSet find_leaves(const TreeModel& tree, const LeafChoice& choice, const LeafOptions& options);
+LEAFHULL_API LeafSet find_leaves(const TreeModel& tree, const LeafChoice& choice,
+                                 const LeafOptions& options);
 
 /// Finds the chosen leaves among some instances of the tree's primitives, which need not be its
 /// own.
-LeafSet find_leaves(const TreeModel& tree, std::span<const Instance> instances,
-                    const LeafChoice& choice, const LeafOptions& options);
+LEAFHULL_API LeafSet find_leaves(const TreeModel& tree, std::span<const Instance> instances,
+                                 const LeafChoice& choice, const LeafOptions& options);
 
 }  // namespace leafhull

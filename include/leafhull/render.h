@@ -12,6 +12,7 @@
 #include <variant>
 #include <vector>
 
+#include "leafhull/api.h"
 #include "leafhull/device.h"
 #include "leafhull/leaves.h"
 #include "leafhull/option_row.h"
@@ -27,9 +28,9 @@ enum class Look { phong, watercolour, normals, depth };
 enum class Surfacing { direct, mesh };  ///< rays through the density itself, or a mesh of it
 enum class Viewpoint { front, three_quarter, top };
 
-std::span<const std::string_view> names(Look);
-std::span<const std::string_view> names(Surfacing);
-std::span<const std::string_view> names(Viewpoint);
+LEAFHULL_API std::span<const std::string_view> names(Look);
+LEAFHULL_API std::span<const std::string_view> names(Surfacing);
+LEAFHULL_API std::span<const std::string_view> names(Viewpoint);
 
 /// A camera, model units.
 struct View {
@@ -41,10 +42,10 @@ struct View {
 /// Reads a camera: a .json object with `eye`, `target` and perhaps `up` and `angle`, as in View, or
 /// the first perspective camera in the scene of a .glb or .gltf.
 /// @throws Error input: the file, the key in it and what is wrong.
-View read_view(const std::filesystem::path& file, const ReadOptions& options = {});
+LEAFHULL_API View read_view(const std::filesystem::path& file, const ReadOptions& options = {});
 
 /// The styles that leafhull brings, the default first.
-std::span<const std::string_view> watercolour_styles();
+LEAFHULL_API std::span<const std::string_view> watercolour_styles();
 
 /// How to paint a watercolour.
 class WatercolourStyle {
@@ -52,7 +53,8 @@ class WatercolourStyle {
   /// A style by its name or from a .json file; `detail`, 0..1, replaces its own where given.
   /// @throws Error usage: no such name, or a key of the file that is wrong; input: the file cannot
   /// be read.
-  explicit WatercolourStyle(const std::string& name_or_file, std::optional<double> detail = {});
+  LEAFHULL_API explicit WatercolourStyle(const std::string& name_or_file,
+                                         std::optional<double> detail = {});
 
   struct Keys;
   /// The part that only src/picture uses.
@@ -63,7 +65,7 @@ class WatercolourStyle {
 };
 
 /// The keys of a style file as a Markdown table: name, range, the default style's value, meaning.
-std::string watercolour_style_table();
+LEAFHULL_API std::string watercolour_style_table();
 
 /// What pictures show, ready to be seen from any side: foliage, and perhaps wood.
 class Subject {
@@ -72,7 +74,7 @@ class Subject {
   explicit Subject(std::shared_ptr<const Parts> parts) : parts_(std::move(parts)) {}
 
   /// The report of its extraction, as far as pictures needed one; only for a tree's shape.
-  const Report& report() const;
+  LEAFHULL_API const Report& report() const;
   /// The part that only src/picture uses.
   const Parts& parts() const { return *parts_; }
 
@@ -84,31 +86,32 @@ class Subject {
 /// named viewpoints hold: the shape and the wood where it is empty.
 /// @param leaves what find_leaves gives for `tree` and `options`.
 /// @throws Error as extract does.
-Subject tree_subject(std::shared_ptr<const TreeModel> tree, const LeafSet& leaves,
-                     const Options& options, Surfacing surfacing, Device& device,
-                     const Progress& progress = {}, const Frame& frame = {});
+LEAFHULL_API Subject tree_subject(std::shared_ptr<const TreeModel> tree, const LeafSet& leaves,
+                                  const Options& options, Surfacing surfacing, Device& device,
+                                  const Progress& progress = {}, const Frame& frame = {});
 
 /// A tree as its file draws it, wood and leaves with their textures. Looks apply as elsewhere,
 /// except that watercolour becomes Phong shading.
 /// @param choice the choice of the leaves of `like`.
 /// @param like the abstract shape of the tree: pictures of both are taken from the same place.
-Subject drawn_subject(const std::shared_ptr<const TreeModel>& tree, const LeafChoice& choice,
-                      const Subject& like);
+LEAFHULL_API Subject drawn_subject(const std::shared_ptr<const TreeModel>& tree,
+                                   const LeafChoice& choice, const Subject& like);
 
 /// A shape that was written to a file.
 /// @throws Error input: no extent.
-Subject shape_subject(std::shared_ptr<const TreeModel> shape);
+LEAFHULL_API Subject shape_subject(std::shared_ptr<const TreeModel> shape);
 
 /// Whether a file holds an abstract shape rather than a tree: its meshes are called "abstract
 /// shape" as extract calls them, or nothing in it has a name or a material, as in extract's .obj.
-bool is_shape(const TreeModel& file);
+LEAFHULL_API bool is_shape(const TreeModel& file);
 
 /// A density that was written to a .vdb file. Its grid is called `density`, or is the only one of
 /// floats; T is the grid's `threshold`, which other programs' grids lack.
 /// @throws Error input: no such grid, or nothing in it; usage: no T, or one that the grid was not
 /// sampled for; empty: nothing reaches T.
-Subject field_subject(const std::filesystem::path& file, std::optional<double> threshold,
-                      Surfacing surfacing, Device& device, const Progress& progress = {});
+LEAFHULL_API Subject field_subject(const std::filesystem::path& file,
+                                   std::optional<double> threshold, Surfacing surfacing,
+                                   Device& device, const Progress& progress = {});
 
 struct PictureOptions {
   Look look = Look::phong;
@@ -133,12 +136,12 @@ struct Rendering {
 /// A picture of the subject: the same bytes for the same subject, options and device.
 /// @param progress `done` is the share of the picture.
 /// @throws Error usage: a side out of range, or more memory than there is; device.
-Rendering draw(const Subject& subject, const PictureOptions& options, Device& device,
-               const Progress& progress = {});
+LEAFHULL_API Rendering draw(const Subject& subject, const PictureOptions& options, Device& device,
+                            const Progress& progress = {});
 
 /// The picture and what its pixels see, as an OpenEXR file: R G B, A, Z, N, P, id, key, open,
 /// foliage, wood.
-std::vector<std::uint8_t> encode_exr(const Rendering& rendering);
+LEAFHULL_API std::vector<std::uint8_t> encode_exr(const Rendering& rendering);
 
 /// The files and times of a run of pictures.
 struct PictureSummary {
@@ -154,7 +157,7 @@ enum class Plate { own, paper };
 /// How a file is drawn.
 enum class Drawn { tree, shape };
 
-std::span<const std::string_view> names(Drawn);
+LEAFHULL_API std::span<const std::string_view> names(Drawn);
 
 /// What `leafhull render` asks for, as it is typed.
 struct RenderOptions : PictureOptions {
@@ -169,7 +172,7 @@ struct RenderOptions : PictureOptions {
   std::optional<Plate> figure17;              ///< a plate in place of a picture
 };
 
-void describe(OptionLine& line, Plate value);
+LEAFHULL_API void describe(OptionLine& line, Plate value);
 inline void check_value(const OptionLine&, Plate) {}
 
 /// The sides of a picture are two members.
@@ -181,10 +184,10 @@ using RenderOptionRow =
           std::optional<Drawn> RenderOptions::*, std::optional<Plate> RenderOptions::*>;
 
 /// The options of pictures beside those of the shape.
-std::span<const RenderOptionRow> render_table();
+LEAFHULL_API std::span<const RenderOptionRow> render_table();
 
 /// Whether a file is drawn as a density: a .vdb file.
-bool is_field(const std::filesystem::path& subject);
+LEAFHULL_API bool is_field(const std::filesystem::path& subject);
 
 /// The file names of pictures, by format.
 struct FilePlan {
@@ -210,13 +213,14 @@ struct PicturePlan {
 /// stands for a film of one picture or for the buffers of several subjects, one file twice, or the
 /// subject itself; input: a camera or a style that cannot be read; output: a folder that does not
 /// exist or cannot be written to, or a film without ffmpeg.
-PicturePlan plan_pictures(const RenderOptions& options, const std::filesystem::path& subject,
-                          const ReadOptions& reading = {});
+LEAFHULL_API PicturePlan plan_pictures(const RenderOptions& options,
+                                       const std::filesystem::path& subject,
+                                       const ReadOptions& reading = {});
 
 /// Fails before any work is done where write_pictures() or write_figure17() would fail later.
 /// @throws Error usage: the pictures need more memory than the device has, and the largest size
 /// that fits.
-void check_device(const PicturePlan& plan, const DeviceInfo& device);
+LEAFHULL_API void check_device(const PicturePlan& plan, const DeviceInfo& device);
 
 /// Draws and writes, one file after the other, each whole or not at all. Several subjects stand in
 /// one picture, from left to right, each of the plan's size. The frames of a turntable are
@@ -224,16 +228,18 @@ void check_device(const PicturePlan& plan, const DeviceInfo& device);
 /// @param progress `done` is the share of all pictures; frames are counted.
 /// @throws Error as draw does; usage: no subject, or several where the plan has a .exr file;
 /// output: which file and why.
-PictureSummary write_pictures(std::span<const Subject> subjects, const PicturePlan& plan,
-                              Device& device, const Progress& progress = {});
+LEAFHULL_API PictureSummary write_pictures(std::span<const Subject> subjects,
+                                           const PicturePlan& plan, Device& device,
+                                           const Progress& progress = {});
 
 /// Draws the plan's plate, the paper's Figure 17, and writes it: thin, fat and the previous method,
 /// in Phong shading and in watercolour. Each row sets the method and the style, whose values the
 /// rest of `options` overrides.
 /// @param progress `done` is the share of the plate.
 /// @throws Error as extract and draw do; usage: the plan has no plate; output: why.
-void write_figure17(const std::shared_ptr<const TreeModel>& tree, const LeafSet& leaves,
-                    const Options& options, Surfacing surfacing, const PicturePlan& plan,
-                    Device& device, const Progress& progress = {});
+LEAFHULL_API void write_figure17(const std::shared_ptr<const TreeModel>& tree,
+                                 const LeafSet& leaves, const Options& options, Surfacing surfacing,
+                                 const PicturePlan& plan, Device& device,
+                                 const Progress& progress = {});
 
 }  // namespace leafhull

@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 
+#include "leafhull/api.h"
 #include "leafhull/device.h"
 #include "leafhull/leaves.h"
 #include "leafhull/options.h"
@@ -36,7 +37,8 @@ using SeriesVisitor = std::function<bool(std::size_t index, SeriesEntry&& entry)
 /// hash, N_iso, the kernels, and one field for all thresholds. An entry without a surface is empty,
 /// and one that cannot be computed says why: neither ends the series.
 /// @throws Error as extract does for its options and the crown, before any work is done; device.
-void extract_series(const LeafSet& leaves, std::span<const Options> options, Device& device,
-                    const SeriesVisitor& visit, const Progress& progress = {});
+LEAFHULL_API void extract_series(const LeafSet& leaves, std::span<const Options> options,
+                                 Device& device, const SeriesVisitor& visit,
+                                 const Progress& progress = {});
 
 }  // namespace leafhull

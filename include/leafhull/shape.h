@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "leafhull/api.h"
 #include "leafhull/device.h"
 #include "leafhull/leaves.h"
 #include "leafhull/options.h"
@@ -97,7 +98,7 @@ struct Shape {
 /// @throws Error usage: options, or a resolution that does not fit in memory; input: no leaves, or
 ///         a crown without extent; device: a kernel that does not build (with its log) or run;
 ///         empty: no sample reaches the threshold.
-Shape extract(const LeafSet& leaves, const Options& options, Device& device,
-              const Progress& progress = {});
+LEAFHULL_API Shape extract(const LeafSet& leaves, const Options& options, Device& device,
+                           const Progress& progress = {});
 
 }  // namespace leafhull

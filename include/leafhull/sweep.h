@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "leafhull/api.h"
 #include "leafhull/device.h"
 #include "leafhull/leaves.h"
 #include "leafhull/options.h"
@@ -26,18 +27,18 @@ struct SweptOption {
 };
 
 /// Whether a sweep may give the option several values: numbers and names of Shape and Resolution.
-bool can_sweep(const OptionRow& row);
+LEAFHULL_API bool can_sweep(const OptionRow& row);
 
 /// Parses the values in `text`: a range first:last:step of numbers, including the last if a step
 /// meets it; a list a,b,c; or one value, passed on unread. Numbers that end in % are values of the
 /// row's `percent`, or hundredths of a fraction.
 /// @throws Error usage: neither a range nor a list, a range without values, a step that is not
 /// above zero, a value given twice.
-SweptOption swept_option(const OptionRow& row, std::string_view text);
+LEAFHULL_API SweptOption swept_option(const OptionRow& row, std::string_view text);
 
 /// How many combinations there are.
 /// @throws Error usage: more than a sweep can hold, 100,000.
-std::size_t combination_count(std::span<const SweptOption> swept);
+LEAFHULL_API std::size_t combination_count(std::span<const SweptOption> swept);
 
 /// What a sweep extracts.
 struct SweepPlan {
@@ -69,9 +70,9 @@ struct SweepSummary {
 /// @param progress counts combinations, those of earlier runs from the start.
 /// @throws Error usage: the folder holds another sweep, or files of these names from elsewhere;
 ///         output: which file and why; and what extract_series throws.
-SweepSummary run_sweep(const LeafSet& leaves, const SweepPlan& plan, Device& device,
-                       const SweepFolder& folder, const RunDescription& run,
-                       const Progress& progress = {});
+LEAFHULL_API SweepSummary run_sweep(const LeafSet& leaves, const SweepPlan& plan, Device& device,
+                                    const SweepFolder& folder, const RunDescription& run,
+                                    const Progress& progress = {});
 
 /// One choice of erosion and dilation, and its result.
 struct Suggestion {
@@ -93,7 +94,7 @@ struct Suggestions {
 };
 
 /// @throws Error as extract_series does.
-Suggestions suggest(const LeafSet& leaves, const Options& options, Device& device,
-                    std::string_view title, const Progress& progress = {});
+LEAFHULL_API Suggestions suggest(const LeafSet& leaves, const Options& options, Device& device,
+                                 std::string_view title, const Progress& progress = {});
 
 }  // namespace leafhull
