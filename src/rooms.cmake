@@ -48,7 +48,7 @@ leafhull_room(picture RENDER
      ROOMS foliage input output pipeline process render surface text watercolour
      LIBRARIES json tbb)
 leafhull_room(runs RUNS ROOMS output text LIBRARIES json openssl)
-leafhull_room(sweep STUDY ROOMS chart output runs text LIBRARIES)
+leafhull_room(sweep STUDY ROOMS chart output pipeline runs text LIBRARIES)
 leafhull_room(study STUDY ROOMS text LIBRARIES)
 leafhull_room(page STUDY ROOMS chart output study text LIBRARIES json meshoptimizer mustache)
 leafhull_room(scene FOREST ROOMS foliage input text LIBRARIES json stb)

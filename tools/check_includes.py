@@ -20,7 +20,7 @@ SYSTEM = (
 )
 
 NAMESPACE = re.compile(r"^namespace ([\w:]+) \{", re.MULTILINE)
-TYPE = re.compile(r"^(?:struct|class|enum class) ([\w:]+)[^;{]*\{", re.MULTILINE)
+TYPE = re.compile(r"^(?:struct|class|enum class) (?:LEAFHULL_API )?([\w:]+)[^;{]*\{", re.MULTILINE)
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]', re.MULTILINE)
 
 

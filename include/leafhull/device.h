@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "leafhull/api.h"
 #include "leafhull/option_row.h"
 
 namespace leafhull {
@@ -37,14 +38,14 @@ struct DeviceOptions {
 };
 
 /// The names of the density kernels: "vector" and "work-item".
-std::span<const std::string_view> kernel_variants();
+LEAFHULL_API std::span<const std::string_view> kernel_variants();
 
 using DeviceOptionRow = RowOver<DeviceOptions, std::string, int>;
-std::span<const DeviceOptionRow> device_table();
+LEAFHULL_API std::span<const DeviceOptionRow> device_table();
 
 /// Every OpenCL device, in the order of their indices, and which one `options` would choose.
 /// Empty where no platform is installed.
-std::vector<DeviceInfo> list_devices(const DeviceOptions& options);
+LEAFHULL_API std::vector<DeviceInfo> list_devices(const DeviceOptions& options);
 
 /// An opened OpenCL device with leafhull's programs. Threads that share one take turns, each
 /// waiting for its own work, so that within a thread the device's work and TBB's never overlap.
@@ -53,16 +54,16 @@ std::vector<DeviceInfo> list_devices(const DeviceOptions& options);
 class Device {
  public:
   /// @throws Error device: none, no such one, or one that cannot be opened; usage: no such variant.
-  explicit Device(const DeviceOptions& options);
-  ~Device();
-  Device(Device&&) noexcept;
-  Device& operator=(Device&&) noexcept;
+  LEAFHULL_API explicit Device(const DeviceOptions& options);
+  LEAFHULL_API ~Device();
+  LEAFHULL_API Device(Device&&) noexcept;
+  LEAFHULL_API Device& operator=(Device&&) noexcept;
 
-  const DeviceInfo& info() const;
+  LEAFHULL_API const DeviceInfo& info() const;
   /// The bound on host threads, 0: all cores.
-  int threads() const;
+  LEAFHULL_API int threads() const;
   /// Whether its work and TBB's together keep to that bound.
-  bool may_overlap() const;
+  LEAFHULL_API bool may_overlap() const;
 
   /// The OpenCL engine behind it, which src/device defines.
   struct Engine;
@@ -78,8 +79,8 @@ class Device {
 class ThreadLimit {
  public:
   /// @param threads the most threads, or 0 for no bound.
-  explicit ThreadLimit(int threads);
-  ~ThreadLimit();
+  LEAFHULL_API explicit ThreadLimit(int threads);
+  LEAFHULL_API ~ThreadLimit();
   ThreadLimit(const ThreadLimit&) = delete;
   ThreadLimit& operator=(const ThreadLimit&) = delete;
 
@@ -93,6 +94,6 @@ class ThreadLimit {
 /// the first time, and less than a tenth from its cache.
 /// get() throws what Device's constructor and extract throw of a device; the future waits for its
 /// thread when it is destroyed.
-std::future<Device> open_device(const DeviceOptions& options, int falloff);
+LEAFHULL_API std::future<Device> open_device(const DeviceOptions& options, int falloff);
 
 }  // namespace leafhull

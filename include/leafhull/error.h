@@ -5,6 +5,8 @@
 #include <string>
 #include <utility>
 
+#include "leafhull/api.h"
+
 namespace leafhull {
 
 /// The kind of failure; the value is the command's exit code.
@@ -18,7 +20,7 @@ enum class ErrorCode {
 };
 
 /// The one exception of the library: what happened and where (`what`), and what to do (`remedy`).
-class Error : public std::runtime_error {
+class LEAFHULL_API Error : public std::runtime_error {
  public:
   Error(ErrorCode code, const std::string& message, std::string remedy = {})
       : std::runtime_error(message), code_(code), remedy_(std::move(remedy)) {}

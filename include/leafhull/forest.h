@@ -3,17 +3,19 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
+#include "leafhull/api.h"
 #include "leafhull/device.h"
 #include "leafhull/option_row.h"
 #include "leafhull/options.h"
 #include "leafhull/output.h"
+#include "leafhull/progress.h"
 #include "leafhull/scene.h"
 #include "leafhull/shape.h"
 
@@ -24,8 +26,8 @@ class Ranks;
 enum class Merge { none, canopy };         ///< each model once with instances, or one surface
 enum class ControlScope { model, scene };  ///< what m and s are taken over
 
-std::span<const std::string_view> names(Merge);
-std::span<const std::string_view> names(ControlScope);
+LEAFHULL_API std::span<const std::string_view> names(Merge);
+LEAFHULL_API std::span<const std::string_view> names(ControlScope);
 
 /// Part `part`, 1 to `parts`, of a forest's tiles.
 struct TileRange {
@@ -48,28 +50,35 @@ struct ForestOptions {
   std::optional<std::filesystem::path> single;
 };
 
-void describe(OptionLine& line, const TileRange& value);
-void check_value(const OptionLine& line, const TileRange& value);
+LEAFHULL_API void describe(OptionLine& line, const TileRange& value);
+LEAFHULL_API void check_value(const OptionLine& line, const TileRange& value);
 
 using ForestOptionRow =
     RowOver<ForestOptions, bool, int, ByteCount, Merge, ControlScope, std::optional<int>,
             std::optional<TileRange>, std::optional<std::filesystem::path>>;
 
 /// The options of a forest beside those of its trees' shape.
-std::span<const ForestOptionRow> forest_table();
+LEAFHULL_API std::span<const ForestOptionRow> forest_table();
 
-/// Checks the options, the shape's too, before any work is done.
-/// @throws Error usage: a value out of range, or two options that contradict each other.
-void check_forest(const ForestOptions& options);
+/// A forest that can be computed and kept: plan_forest() has checked it.
+class ForestPlan {
+ public:
+  const ForestOptions& options() const { return options_; }
+  const OutputFolder& folder() const { return folder_; }
 
-/// How far a run has come.
-struct ForestProgress {
-  std::string_view stage;
-  std::size_t tiles_done = 0, tiles = 0;
-  std::uint64_t leaf_vertices = 0;   ///< of this run's tiles so far
-  std::uint64_t resident_bytes = 0;  ///< of this process, now
+ private:
+  friend ForestPlan plan_forest(ForestOptions options, const std::filesystem::path& folder);
+  ForestPlan(ForestOptions options, OutputFolder folder)
+      : options_(std::move(options)), folder_(std::move(folder)) {}
+
+  ForestOptions options_;
+  OutputFolder folder_;
 };
-using ForestProgressVisitor = std::function<void(const ForestProgress&)>;
+
+/// Checks the options, the shape's too, and the folder before any work is done.
+/// @throws Error usage: a value out of range, or two options that contradict each other;
+///         output: the folder could not be made or written to.
+LEAFHULL_API ForestPlan plan_forest(ForestOptions options, const std::filesystem::path& folder);
 
 /// A finished tile.
 struct TileRow {
@@ -106,19 +115,19 @@ struct ForestSummary {
   std::vector<std::string> warnings;
 };
 
-/// Turns a scene into abstract shapes, kept in `folder`: `tileset.json` (OGC 3D Tiles 1.1) and
-/// tiles/ for a canopy, forest.glb for Merge::none, and manifest.json with a checksum of each file.
-/// The bytes depend on the scene and the options alone, not on ranks, ranges, threads or
+/// Turns a scene into abstract shapes, kept in the plan's folder: `tileset.json` (OGC 3D Tiles 1.1)
+/// and tiles/ for a canopy, forest.glb for Merge::none, and manifest.json with a checksum of each
+/// file. The bytes depend on the scene and the options alone, not on ranks, ranges, threads or
 /// interruptions.
-/// @throws Error usage: options; a folder that holds another forest, or one that is not finished,
-///         without `resume`; more memory or more tiles than there is room for; input: a model;
+/// @throws Error usage: a folder that holds another forest, or one that is not finished, without
+///         `resume`; more memory or more tiles than there is room for; input: a model;
 ///         empty: no tree has a surface; output; device.
-ForestSummary run_forest(const Scene& scene, const ForestOptions& options, Device& device,
-                         Ranks& ranks, const std::filesystem::path& folder,
-                         const ForestProgressVisitor& progress = {});
+LEAFHULL_API ForestSummary run_forest(const Scene& scene, const ForestPlan& plan, Device& device,
+                                      Ranks& ranks, const Progress& progress = {});
 
 /// The report as one JSON object, schema "leafhull-forest-report/1".
-std::string forest_report_json(const ForestSummary& summary, const ForestOptions& options,
-                               const RunDescription& run);
+LEAFHULL_API std::string forest_report_json(const ForestSummary& summary,
+                                            const ForestOptions& options,
+                                            const RunDescription& run);
 
 }  // namespace leafhull

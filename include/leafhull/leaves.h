@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "leafhull/api.h"
 #include "leafhull/tree.h"
 #include "leafhull/vec.h"
 
@@ -61,23 +62,21 @@ struct LeafPoint {
   double area;         ///< a_j, model units squared; 0: a vertex, whose kernel has the weight 1
 };
 
-/// The leaves as visible area; only leafhull's own stages look inside.
-struct LeafSheets;
-struct WeldedPrimitives;
 struct LeafChoice;
 
 struct LeafSet {
+  struct Sheets;                     ///< the leaves as visible area, for leafhull's own stages
   std::vector<LeafVertex> vertices;  ///< in an order that depends on the geometry alone
   std::size_t leaf_count = 0;
   /// Each leaf's index in the file, stable across the frames of a moving tree; or none.
   std::vector<std::uint32_t> order_in_file;
-  std::size_t dropped_leaves = 0;    ///< zero area, no usable normal or not finite
-  std::size_t split_components = 0;  ///< components that were not one flat leaf
-  double mean_radius_major = 0;      ///< mean R_u over the leaves, model units
-  double area = 0;                   ///< visible area of one side only, in model units squared
-  std::optional<Vec3f> colour;       ///< linear, mean; none: unknown
-  std::shared_ptr<const LeafSheets> sheets;  ///< the surfaces that `area` measures
-  Box bounds;                                ///< of the vertices
+  std::size_t dropped_leaves = 0;        ///< zero area, no usable normal or not finite
+  std::size_t split_components = 0;      ///< components that were not one flat leaf
+  double mean_radius_major = 0;          ///< mean R_u over the leaves, model units
+  double area = 0;                       ///< visible area of one side only, in model units squared
+  std::optional<Vec3f> colour;           ///< linear, mean; none: unknown
+  std::shared_ptr<const Sheets> sheets;  ///< the surfaces that `area` measures
+  Box bounds;                            ///< of the vertices
   /// The box of the vertices without strays, the few leaves that lie far from the rest. Lengths in
   /// crown units and resolutions refer to it. SPEC: 4.
   Box crown;
@@ -118,12 +117,14 @@ struct LeafCandidate {
 
 /// Which triangles of a tree are its leaves, and why.
 struct LeafChoice {
+  struct Welded;  ///< vertices of the tree that lie in one place, for find_leaves()
+
   std::vector<bool> instances;               ///< whether any of its triangles are leaves
   std::vector<std::vector<bool>> triangles;  ///< by primitive, those that are leaves; empty: all
   std::vector<bool> cut_out;   ///< by material: the alpha of its image counts though it is opaque
   std::vector<bool> left_out;  ///< by instance: a coarser level of detail of another one
-  std::shared_ptr<const WeldedPrimitives> welded;  ///< for find_leaves() to reuse; or none
-  std::vector<LeafCandidate> candidates;           ///< the likeliest first
+  std::shared_ptr<const Welded> welded;   ///< for find_leaves() to reuse; or none
+  std::vector<LeafCandidate> candidates;  ///< the likeliest first
   /// The leaves' mean linear colour by visible area: texture times factor times vertex colour. None
   /// where the file gives no colour.
   std::optional<Vec3f> colour;
@@ -133,13 +134,13 @@ struct LeafChoice {
   std::vector<std::string> options;  ///< those that would take the likeliest candidates
   std::vector<std::string> warnings;
 
-  bool any() const;
+  LEAFHULL_API bool any() const;
 };
 
 /// Weighs what names, alpha, colour, shape and place say, or does as the options ask. SPEC: 1.
 /// @throws Error usage: an option is out of range.
-LeafChoice choose_leaves(const TreeModel& tree, std::span<const Instance> instances,
-                         const LeafOptions& options);
+LEAFHULL_API LeafChoice choose_leaves(const TreeModel& tree, std::span<const Instance> instances,
+                                      const LeafOptions& options);
 inline LeafChoice choose_leaves(const TreeModel& tree, const LeafOptions& options) {
   return choose_leaves(tree, tree.instances, options);
 }
@@ -148,14 +149,15 @@ inline LeafChoice choose_leaves(const TreeModel& tree, const LeafOptions& option
 /// p. 51.
 /// @throws Error input where there are none (the file's names are listed) or nothing is usable;
 ///         usage where an option is out of range.
-LeafSet find_leaves(const TreeModel& tree, const LeafOptions& options);
+LEAFHULL_API LeafSet find_leaves(const TreeModel& tree, const LeafOptions& options);
 
 /// Finds the leaves of an earlier choice.
-LeafSet find_leaves(const TreeModel& tree, const LeafChoice& choice, const LeafOptions& options);
+LEAFHULL_API LeafSet find_leaves(const TreeModel& tree, const LeafChoice& choice,
+                                 const LeafOptions& options);
 
 /// Finds the chosen leaves among some instances of the tree's primitives, which need not be its
 /// own.
-LeafSet find_leaves(const TreeModel& tree, std::span<const Instance> instances,
-                    const LeafChoice& choice, const LeafOptions& options);
+LEAFHULL_API LeafSet find_leaves(const TreeModel& tree, std::span<const Instance> instances,
+                                 const LeafChoice& choice, const LeafOptions& options);
 
 }  // namespace leafhull

@@ -12,6 +12,7 @@
 #include <variant>
 #include <vector>
 
+#include "leafhull/api.h"
 #include "leafhull/vec.h"
 
 // A row says everything about one option: the member of the struct that holds it, its numbers and
@@ -53,8 +54,8 @@ struct OptionFacts {
 
 /// An option as its users see it.
 struct OptionLine : Interval {
-  OptionLine(std::string_view group, std::string_view name, const Interval& numbers,
-             std::string_view help, const OptionFacts& facts);
+  LEAFHULL_API OptionLine(std::string_view group, std::string_view name, const Interval& numbers,
+                          std::string_view help, const OptionFacts& facts);
 
   /// The name, as in the flag --name and, with underscores, in the report.
   std::string_view name;
@@ -80,17 +81,18 @@ inline bool takes_percent(const OptionLine& line) {
 // throws Error usage where a value is outside the line's range. A type that a row holds has both,
 // beside its declaration.
 
-void describe(OptionLine& line, bool value);
-void describe(OptionLine& line, int value);
-void describe(OptionLine& line, double value);
-void describe(OptionLine& line, std::uint64_t value);
-void describe(OptionLine& line, ByteCount value);
-void describe(OptionLine& line, const std::string& value);
-void describe(OptionLine& line, const std::vector<std::string>& value);
-void describe(OptionLine& line, const std::filesystem::path& value);
-void describe(OptionLine& line, const std::vector<std::filesystem::path>& value);
-void describe(OptionLine& line, const Vec2d& value);
-void describe_names(OptionLine& line, std::span<const std::string_view> names, std::size_t value);
+LEAFHULL_API void describe(OptionLine& line, bool value);
+LEAFHULL_API void describe(OptionLine& line, int value);
+LEAFHULL_API void describe(OptionLine& line, double value);
+LEAFHULL_API void describe(OptionLine& line, std::uint64_t value);
+LEAFHULL_API void describe(OptionLine& line, ByteCount value);
+LEAFHULL_API void describe(OptionLine& line, const std::string& value);
+LEAFHULL_API void describe(OptionLine& line, const std::vector<std::string>& value);
+LEAFHULL_API void describe(OptionLine& line, const std::filesystem::path& value);
+LEAFHULL_API void describe(OptionLine& line, const std::vector<std::filesystem::path>& value);
+LEAFHULL_API void describe(OptionLine& line, const Vec2d& value);
+LEAFHULL_API void describe_names(OptionLine& line, std::span<const std::string_view> names,
+                                 std::size_t value);
 
 template <class Enum>
 requires std::is_enum_v<Enum>
@@ -105,12 +107,12 @@ void describe(OptionLine& line, const std::optional<Value>&) {
   describe(line, Value{});
 }
 
-void check_value(const OptionLine& line, double value);
-void check_value(const OptionLine& line, int value);
-void check_value(const OptionLine& line, std::uint64_t value);
-void check_value(const OptionLine& line, ByteCount value);
-void check_value(const OptionLine& line, const std::vector<std::string>& value);
-void check_name(const OptionLine& line, std::size_t value);
+LEAFHULL_API void check_value(const OptionLine& line, double value);
+LEAFHULL_API void check_value(const OptionLine& line, int value);
+LEAFHULL_API void check_value(const OptionLine& line, std::uint64_t value);
+LEAFHULL_API void check_value(const OptionLine& line, ByteCount value);
+LEAFHULL_API void check_value(const OptionLine& line, const std::vector<std::string>& value);
+LEAFHULL_API void check_name(const OptionLine& line, std::size_t value);
 inline void check_value(const OptionLine&, bool) {}
 inline void check_value(const OptionLine&, const std::string&) {}
 inline void check_value(const OptionLine&, const std::filesystem::path&) {}

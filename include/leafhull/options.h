@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "leafhull/api.h"
 #include "leafhull/leaves.h"
 #include "leafhull/option_row.h"
 
@@ -77,16 +78,16 @@ struct Options {
 };
 
 /// The names of an enumeration's values, in order.
-std::span<const std::string_view> names(Up);
-std::span<const std::string_view> names(Style);
-std::span<const std::string_view> names(Method);
-std::span<const std::string_view> names(PointSource);
-std::span<const std::string_view> names(RadiusUnit);
-std::span<const std::string_view> names(Spread);
-std::span<const std::string_view> names(DensitySource);
-std::span<const std::string_view> names(Hollows);
-std::span<const std::string_view> names(Mesher);
-std::span<const std::string_view> names(Preset);
+LEAFHULL_API std::span<const std::string_view> names(Up);
+LEAFHULL_API std::span<const std::string_view> names(Style);
+LEAFHULL_API std::span<const std::string_view> names(Method);
+LEAFHULL_API std::span<const std::string_view> names(PointSource);
+LEAFHULL_API std::span<const std::string_view> names(RadiusUnit);
+LEAFHULL_API std::span<const std::string_view> names(Spread);
+LEAFHULL_API std::span<const std::string_view> names(DensitySource);
+LEAFHULL_API std::span<const std::string_view> names(Hollows);
+LEAFHULL_API std::span<const std::string_view> names(Mesher);
+LEAFHULL_API std::span<const std::string_view> names(Preset);
 
 template <class Enum>
 std::string_view name(Enum value) {
@@ -94,24 +95,24 @@ std::string_view name(Enum value) {
 }
 
 /// Voxels along the longest side.
-int resolution_of(Preset preset);
+LEAFHULL_API int resolution_of(Preset preset);
 
 /// `options`, checked, with the style's values where nothing was asked for. Afterwards `method`,
 /// `flatness`, `points`, `point_spacing`, `min_component`, `hollows` and, unless a dilation is,
 /// `radius_max` are set; so are exactly one of the three thresholds and the erosion, a deviation or
 /// a percentage for each end of a band, and `resolution` or `voxel_size`.
 /// @throws Error usage: a value out of range, or two options that contradict each other.
-Options resolve(Options options);
+LEAFHULL_API Options resolve(Options options);
 
 /// R_max in model units. `resolved` as resolve() returns them; where R_max is still to be found,
 /// the style's, from which the search starts. SPEC: 4.
-double radius_max_in_model_units(const LeafSet& leaves, const Options& resolved);
+LEAFHULL_API double radius_max_in_model_units(const LeafSet& leaves, const Options& resolved);
 
-void describe(OptionLine& line, const TextureEllipse& value);
-void describe(OptionLine& line, const LeafColour& value);
-void describe(OptionLine& line, const Srgb& value);
-void check_value(const OptionLine& line, const TextureEllipse& value);
-void check_value(const OptionLine& line, const LeafColour& value);
+LEAFHULL_API void describe(OptionLine& line, const TextureEllipse& value);
+LEAFHULL_API void describe(OptionLine& line, const LeafColour& value);
+LEAFHULL_API void describe(OptionLine& line, const Srgb& value);
+LEAFHULL_API void check_value(const OptionLine& line, const TextureEllipse& value);
+LEAFHULL_API void check_value(const OptionLine& line, const LeafColour& value);
 inline void check_value(const OptionLine&, const Srgb&) {}
 
 using OptionRow =
@@ -121,9 +122,9 @@ using OptionRow =
             std::vector<std::string>, std::optional<TextureEllipse>, std::optional<LeafColour>,
             std::optional<Srgb>>;
 
-std::span<const OptionRow> option_table();
+LEAFHULL_API std::span<const OptionRow> option_table();
 
 /// The row of that name, which must be in the table.
-const OptionRow& option_row(std::string_view name);
+LEAFHULL_API const OptionRow& option_row(std::string_view name);
 
 }  // namespace leafhull

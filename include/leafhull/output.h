@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "leafhull/api.h"
 #include "leafhull/option_row.h"
 #include "leafhull/shape.h"
 
@@ -24,7 +25,7 @@ struct OutputFiles {
 
 using OutputOptionRow =
     RowOver<OutputFiles, std::vector<std::filesystem::path>, std::optional<std::filesystem::path>>;
-std::span<const OutputOptionRow> output_table();
+LEAFHULL_API std::span<const OutputOptionRow> output_table();
 
 /// What the report says beside the extraction itself.
 struct RunDescription {
@@ -48,33 +49,61 @@ class OutputPlan {
 /// @param input the file that the shape is made of.
 /// @throws Error usage: an unknown extension, one file named twice, or the input itself;
 ///         output: a folder that does not exist or cannot be written to.
-OutputPlan plan_outputs(OutputFiles files, const std::filesystem::path& input);
-
-/// Checks a folder for results before any work is done. It need not exist.
-/// @throws Error output: it could not be made or written to.
-void check_output_folder(const std::filesystem::path& folder);
+LEAFHULL_API OutputPlan plan_outputs(OutputFiles files, const std::filesystem::path& input);
 
 /// A warning where files of floats, .stl and the kernels, lose detail of a shape that lies far from
 /// the origin.
-std::vector<std::string> rounding_warnings(const OutputPlan& plan, const Shape& shape);
+LEAFHULL_API std::vector<std::string> rounding_warnings(const OutputPlan& plan, const Shape& shape);
 
 /// Writes everything under temporary names, then renames: all files or none. A report's seconds
 /// gain `write`, the time that the other files took.
 /// @throws Error output: which file and why.
-void write_outputs(const OutputPlan& plan, const Shape& shape, const RunDescription& run);
+LEAFHULL_API void write_outputs(const OutputPlan& plan, const Shape& shape,
+                                const RunDescription& run);
 
-/// As plan_outputs, for a single file that `write_file` will write.
-void check_output(const std::filesystem::path& file, std::string_view extension,
-                  const std::filesystem::path& input);
+/// A single file that can be written.
+class OutputFile {
+ public:
+  /// Checks the name before any work is done.
+  /// @param inputs the files that it is made of.
+  /// @throws Error usage: an extension other than `extension`, or one of the inputs itself;
+  ///         output: a folder that does not exist or cannot be written to.
+  LEAFHULL_API OutputFile(std::filesystem::path file, std::string_view extension,
+                          const std::vector<std::filesystem::path>& inputs);
 
-/// Writes the whole file or leaves it as it was.
-/// @throws Error output: why.
-void write_file(const std::filesystem::path& file, std::string_view bytes);
+  const std::filesystem::path& path() const { return path_; }
+  /// Writes the whole file or leaves it as it was.
+  /// @throws Error output: why.
+  LEAFHULL_API void write(std::string_view bytes) const;
+
+ private:
+  friend class OutputFolder;
+  explicit OutputFile(std::filesystem::path file) : path_(std::move(file)) {}
+
+  std::filesystem::path path_;
+};
+
+/// A folder that results can be written into; it need not exist.
+class OutputFolder {
+ public:
+  /// Checks the folder before any work is done.
+  /// @throws Error output: it could not be made or written to.
+  LEAFHULL_API explicit OutputFolder(std::filesystem::path folder);
+
+  const std::filesystem::path& path() const { return path_; }
+  /// A file, which may lie in this folder before that is made.
+  /// @throws Error as OutputFile does.
+  LEAFHULL_API OutputFile file(const std::filesystem::path& name, std::string_view extension,
+                               const std::vector<std::filesystem::path>& inputs) const;
+
+ private:
+  std::filesystem::path path_;
+};
 
 /// The report as one JSON object, schema "leafhull-report/1". SPEC: 7.
-std::string report_json(const Report& report, const RunDescription& run);
+LEAFHULL_API std::string report_json(const Report& report, const RunDescription& run);
 
 /// Removes the temporary files of a write that is under way. Async-signal-safe.
-void discard_unfinished_outputs() noexcept;
+LEAFHULL_API void discard_unfinished_outputs() noexcept;
 
 }  // namespace leafhull

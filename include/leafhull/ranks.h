@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "leafhull/api.h"
+
 namespace leafhull {
 
 /// What the ranks add up while they work.
@@ -24,7 +26,7 @@ struct RankProcess {
 
 /// The processes that share a run. All of them make collective calls, in the same order. One thread
 /// at a time may use it. A rank that cannot go on calls abort(), or the others would wait for it.
-class Ranks {
+class LEAFHULL_API Ranks {
  public:
   virtual ~Ranks() = default;  ///< Collective.
 
@@ -67,12 +69,12 @@ class Ranks {
 };
 
 /// One process on its own.
-std::unique_ptr<Ranks> single_rank();
+LEAFHULL_API std::unique_ptr<Ranks> single_rank();
 
 /// The ranks of mpirun or srun, or a single one if they did not start this process as one of
 /// several.
 /// @throws Error usage: started as one of several by mpirun, but built without MPI or with another
 ///         MPI than mpirun's.
-std::unique_ptr<Ranks> open_ranks();
+LEAFHULL_API std::unique_ptr<Ranks> open_ranks();
 
 }  // namespace leafhull

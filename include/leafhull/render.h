@@ -12,30 +12,25 @@
 #include <variant>
 #include <vector>
 
+#include "leafhull/api.h"
 #include "leafhull/device.h"
 #include "leafhull/leaves.h"
 #include "leafhull/option_row.h"
 #include "leafhull/options.h"
 #include "leafhull/picture.h"
+#include "leafhull/progress.h"
 #include "leafhull/shape.h"
 #include "leafhull/tree.h"
 
 namespace leafhull {
 
-namespace render {
-struct Buffers;
-}
-namespace watercolour {
-struct Style;
-}
-
 enum class Look { phong, watercolour, normals, depth };
 enum class Surfacing { direct, mesh };  ///< rays through the density itself, or a mesh of it
 enum class Viewpoint { front, three_quarter, top };
 
-std::span<const std::string_view> names(Look);
-std::span<const std::string_view> names(Surfacing);
-std::span<const std::string_view> names(Viewpoint);
+LEAFHULL_API std::span<const std::string_view> names(Look);
+LEAFHULL_API std::span<const std::string_view> names(Surfacing);
+LEAFHULL_API std::span<const std::string_view> names(Viewpoint);
 
 /// A camera, model units.
 struct View {
@@ -47,22 +42,30 @@ struct View {
 /// Reads a camera: a .json object with `eye`, `target` and perhaps `up` and `angle`, as in View, or
 /// the first perspective camera in the scene of a .glb or .gltf.
 /// @throws Error input: the file, the key in it and what is wrong.
-View read_view(const std::filesystem::path& file, const ReadOptions& options = {});
-
-/// How to paint a watercolour; only leafhull's own painter looks inside.
-using WatercolourStyle = std::shared_ptr<const watercolour::Style>;
+LEAFHULL_API View read_view(const std::filesystem::path& file, const ReadOptions& options = {});
 
 /// The styles that leafhull brings, the default first.
-std::span<const std::string_view> watercolour_styles();
+LEAFHULL_API std::span<const std::string_view> watercolour_styles();
 
-/// A style by its name or from a .json file; `detail`, 0..1, replaces its own where given.
-/// @throws Error usage: no such name, or a key of the file that is wrong; input: the file cannot be
-/// read.
-WatercolourStyle read_watercolour_style(const std::string& name_or_file,
-                                        std::optional<double> detail = {});
+/// How to paint a watercolour.
+class WatercolourStyle {
+ public:
+  /// A style by its name or from a .json file; `detail`, 0..1, replaces its own where given.
+  /// @throws Error usage: no such name, or a key of the file that is wrong; input: the file cannot
+  /// be read.
+  LEAFHULL_API explicit WatercolourStyle(const std::string& name_or_file,
+                                         std::optional<double> detail = {});
+
+  struct Keys;
+  /// The part that only src/picture uses.
+  const Keys& keys() const { return *keys_; }
+
+ private:
+  std::shared_ptr<const Keys> keys_;
+};
 
 /// The keys of a style file as a Markdown table: name, range, the default style's value, meaning.
-std::string watercolour_style_table();
+LEAFHULL_API std::string watercolour_style_table();
 
 /// What pictures show, ready to be seen from any side: foliage, and perhaps wood.
 class Subject {
@@ -71,7 +74,7 @@ class Subject {
   explicit Subject(std::shared_ptr<const Parts> parts) : parts_(std::move(parts)) {}
 
   /// The report of its extraction, as far as pictures needed one; only for a tree's shape.
-  const Report& report() const;
+  LEAFHULL_API const Report& report() const;
   /// The part that only src/picture uses.
   const Parts& parts() const { return *parts_; }
 
@@ -83,59 +86,62 @@ class Subject {
 /// named viewpoints hold: the shape and the wood where it is empty.
 /// @param leaves what find_leaves gives for `tree` and `options`.
 /// @throws Error as extract does.
-Subject tree_subject(std::shared_ptr<const TreeModel> tree, const LeafSet& leaves,
-                     const Options& options, Surfacing surfacing, Device& device,
-                     const Progress& progress = {}, const Frame& frame = {});
+LEAFHULL_API Subject tree_subject(std::shared_ptr<const TreeModel> tree, const LeafSet& leaves,
+                                  const Options& options, Surfacing surfacing, Device& device,
+                                  const Progress& progress = {}, const Frame& frame = {});
 
 /// A tree as its file draws it, wood and leaves with their textures. Looks apply as elsewhere,
 /// except that watercolour becomes Phong shading.
 /// @param choice the choice of the leaves of `like`.
 /// @param like the abstract shape of the tree: pictures of both are taken from the same place.
-Subject drawn_subject(const std::shared_ptr<const TreeModel>& tree, const LeafChoice& choice,
-                      const Subject& like);
+LEAFHULL_API Subject drawn_subject(const std::shared_ptr<const TreeModel>& tree,
+                                   const LeafChoice& choice, const Subject& like);
 
 /// A shape that was written to a file.
 /// @throws Error input: no extent.
-Subject shape_subject(std::shared_ptr<const TreeModel> shape);
+LEAFHULL_API Subject shape_subject(std::shared_ptr<const TreeModel> shape);
 
 /// Whether a file holds an abstract shape rather than a tree: its meshes are called "abstract
 /// shape" as extract calls them, or nothing in it has a name or a material, as in extract's .obj.
-bool is_shape(const TreeModel& file);
+LEAFHULL_API bool is_shape(const TreeModel& file);
 
 /// A density that was written to a .vdb file. Its grid is called `density`, or is the only one of
 /// floats; T is the grid's `threshold`, which other programs' grids lack.
 /// @throws Error input: no such grid, or nothing in it; usage: no T, or one that the grid was not
 /// sampled for; empty: nothing reaches T.
-Subject field_subject(const std::filesystem::path& file, std::optional<double> threshold,
-                      Surfacing surfacing, Device& device, const Progress& progress = {});
+LEAFHULL_API Subject field_subject(const std::filesystem::path& file,
+                                   std::optional<double> threshold, Surfacing surfacing,
+                                   Device& device, const Progress& progress = {});
 
 struct PictureOptions {
   Look look = Look::phong;
   int width = 1024, height = 1024;  ///< pixels, 1 to kLargestSide each
   std::variant<Viewpoint, View> camera = Viewpoint::three_quarter;
-  double turn = 0;              ///< turns the camera about the subject, in whole turns
-  bool turntable = false;       ///< the named viewpoint fits the subject at every turn
-  WatercolourStyle style = {};  ///< none: the default one
+  double turn = 0;         ///< turns the camera about the subject, in whole turns
+  bool turntable = false;  ///< the named viewpoint fits the subject at every turn
+  std::optional<WatercolourStyle> style = {};  ///< empty: the default one
 };
 
 inline constexpr int kLargestSide = 16384;
 
 struct Rendering {
+  struct Buffers;  ///< what pixels see, for src/picture
+
   Picture picture;
-  std::shared_ptr<const render::Buffers> buffers;  ///< what encode_exr takes
-  bool blank = false;                              ///< nothing is in view
-  std::vector<StageTime> seconds;                  ///< in order, without a total
+  std::shared_ptr<const Buffers> buffers;  ///< what encode_exr takes
+  bool blank = false;                      ///< nothing is in view
+  std::vector<StageTime> seconds;          ///< in order, without a total
 };
 
 /// A picture of the subject: the same bytes for the same subject, options and device.
 /// @param progress `done` is the share of the picture.
 /// @throws Error usage: a side out of range, or more memory than there is; device.
-Rendering draw(const Subject& subject, const PictureOptions& options, Device& device,
-               const Progress& progress = {});
+LEAFHULL_API Rendering draw(const Subject& subject, const PictureOptions& options, Device& device,
+                            const Progress& progress = {});
 
 /// The picture and what its pixels see, as an OpenEXR file: R G B, A, Z, N, P, id, key, open,
 /// foliage, wood.
-std::vector<std::uint8_t> encode_exr(const Rendering& rendering);
+LEAFHULL_API std::vector<std::uint8_t> encode_exr(const Rendering& rendering);
 
 /// The files and times of a run of pictures.
 struct PictureSummary {
@@ -148,18 +154,10 @@ struct PictureSummary {
 /// Whose values a plate's rows use: leafhull's styles of leaf area, or the paper's.
 enum class Plate { own, paper };
 
-/// The plate of the paper's Figure 17: thin, fat and the previous method, in Phong shading and in
-/// watercolour. Each row sets the method and the style, whose values the rest of `options`
-/// overrides; `look` and `turn` do not count.
-/// @throws Error as extract and draw do.
-Picture figure17(const std::shared_ptr<const TreeModel>& tree, const LeafSet& leaves,
-                 const Options& options, Plate plate, Surfacing surfacing,
-                 const PictureOptions& picture, Device& device, const Progress& progress = {});
-
 /// How a file is drawn.
 enum class Drawn { tree, shape };
 
-std::span<const std::string_view> names(Drawn);
+LEAFHULL_API std::span<const std::string_view> names(Drawn);
 
 /// What `leafhull render` asks for, as it is typed.
 struct RenderOptions : PictureOptions {
@@ -174,7 +172,7 @@ struct RenderOptions : PictureOptions {
   std::optional<Plate> figure17;              ///< a plate in place of a picture
 };
 
-void describe(OptionLine& line, Plate value);
+LEAFHULL_API void describe(OptionLine& line, Plate value);
 inline void check_value(const OptionLine&, Plate) {}
 
 /// The sides of a picture are two members.
@@ -186,10 +184,10 @@ using RenderOptionRow =
           std::optional<Drawn> RenderOptions::*, std::optional<Plate> RenderOptions::*>;
 
 /// The options of pictures beside those of the shape.
-std::span<const RenderOptionRow> render_table();
+LEAFHULL_API std::span<const RenderOptionRow> render_table();
 
 /// Whether a file is drawn as a density: a .vdb file.
-bool is_field(const std::filesystem::path& subject);
+LEAFHULL_API bool is_field(const std::filesystem::path& subject);
 
 /// The file names of pictures, by format.
 struct FilePlan {
@@ -215,20 +213,33 @@ struct PicturePlan {
 /// stands for a film of one picture or for the buffers of several subjects, one file twice, or the
 /// subject itself; input: a camera or a style that cannot be read; output: a folder that does not
 /// exist or cannot be written to, or a film without ffmpeg.
-PicturePlan plan_pictures(const RenderOptions& options, const std::filesystem::path& subject,
-                          const ReadOptions& reading = {});
+LEAFHULL_API PicturePlan plan_pictures(const RenderOptions& options,
+                                       const std::filesystem::path& subject,
+                                       const ReadOptions& reading = {});
 
+/// Fails before any work is done where write_pictures() or write_figure17() would fail later.
 /// @throws Error usage: the pictures need more memory than the device has, and the largest size
 /// that fits.
-void check_device(const PicturePlan& plan, const DeviceInfo& device);
+LEAFHULL_API void check_device(const PicturePlan& plan, const DeviceInfo& device);
 
 /// Draws and writes, one file after the other, each whole or not at all. Several subjects stand in
 /// one picture, from left to right, each of the plan's size. The frames of a turntable are
 /// numbered, picture-0001.png; beside them comes picture.mp4 where ffmpeg is on the PATH.
-/// @param progress `done` is the share of all pictures.
+/// @param progress `done` is the share of all pictures; frames are counted.
 /// @throws Error as draw does; usage: no subject, or several where the plan has a .exr file;
 /// output: which file and why.
-PictureSummary write_pictures(std::span<const Subject> subjects, const PicturePlan& plan,
-                              Device& device, const Progress& progress = {});
+LEAFHULL_API PictureSummary write_pictures(std::span<const Subject> subjects,
+                                           const PicturePlan& plan, Device& device,
+                                           const Progress& progress = {});
+
+/// Draws the plan's plate, the paper's Figure 17, and writes it: thin, fat and the previous method,
+/// in Phong shading and in watercolour. Each row sets the method and the style, whose values the
+/// rest of `options` overrides.
+/// @param progress `done` is the share of the plate.
+/// @throws Error as extract and draw do; usage: the plan has no plate; output: why.
+LEAFHULL_API void write_figure17(const std::shared_ptr<const TreeModel>& tree,
+                                 const LeafSet& leaves, const Options& options, Surfacing surfacing,
+                                 const PicturePlan& plan, Device& device,
+                                 const Progress& progress = {});
 
 }  // namespace leafhull

@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "leafhull/api.h"
 #include "leafhull/leaves.h"
 #include "leafhull/option_row.h"
 #include "leafhull/tree.h"
@@ -57,11 +58,11 @@ struct Scene {
 /// model and every node that holds it a tree, EXT_mesh_gpu_instancing included.
 /// @throws Error input: the file, the line and what is wrong, such as a tree file that is not there
 ///         or a value that is no number; a file without trees.
-Scene read_scene(const std::filesystem::path& path, const LeafOptions& leaves,
-                 const ReadOptions& reading = {});
+LEAFHULL_API Scene read_scene(const std::filesystem::path& path, const LeafOptions& leaves,
+                              const ReadOptions& reading = {});
 
 /// The leaves of a scene's model. @throws Error as read_tree and find_leaves do.
-LeafSet read_model(const SceneModel& model, const LeafOptions& leaves);
+LEAFHULL_API LeafSet read_model(const SceneModel& model, const LeafOptions& leaves);
 
 /// Heights over the ground: a grey picture of one or two bytes per pixel.
 struct HeightMap {
@@ -93,12 +94,12 @@ using ScatterOptionRow =
           std::pair<std::optional<HeightMap> ScatterOptions::*, double HeightMap::*>>;
 
 /// The options of a scatter, without its trees and how they are read.
-std::span<const ScatterOptionRow> scatter_table();
+LEAFHULL_API std::span<const ScatterOptionRow> scatter_table();
 
 /// Writes a scatter file with trees at the points of a Poisson-disk pattern: no two are closer than
 /// about 0.78 sqrt(area / count). Yaws are even. The same options give the same bytes.
 /// @throws Error usage: a value out of range; input: a tree or the height map cannot be read;
 ///         output: the file cannot be written.
-void write_scatter(const ScatterOptions& options, const std::filesystem::path& file);
+LEAFHULL_API void write_scatter(const ScatterOptions& options, const std::filesystem::path& file);
 
 }  // namespace leafhull

@@ -6,9 +6,11 @@
 #include <span>
 #include <string>
 
+#include "leafhull/api.h"
 #include "leafhull/device.h"
 #include "leafhull/leaves.h"
 #include "leafhull/options.h"
+#include "leafhull/progress.h"
 #include "leafhull/shape.h"
 
 namespace leafhull {
@@ -31,15 +33,12 @@ struct SeriesEntry {
 /// false ends the series.
 using SeriesVisitor = std::function<bool(std::size_t index, SeriesEntry&& entry)>;
 
-/// Checks the options of a series, and what they mean on this tree, before any work is done.
-/// @throws Error as extract does for its options and the crown.
-void check_series(const LeafSet& leaves, std::span<const Options> options);
-
 /// Extracts one tree with each of `options`, ordered so that neighbours share the most work: the
 /// hash, N_iso, the kernels, and one field for all thresholds. An entry without a surface is empty,
 /// and one that cannot be computed says why: neither ends the series.
-/// @throws Error as check_series does, before the first entry; device.
-void extract_series(const LeafSet& leaves, std::span<const Options> options, Device& device,
-                    const SeriesVisitor& visit, const Progress& progress = {});
+/// @throws Error as extract does for its options and the crown, before any work is done; device.
+LEAFHULL_API void extract_series(const LeafSet& leaves, std::span<const Options> options,
+                                 Device& device, const SeriesVisitor& visit,
+                                 const Progress& progress = {});
 
 }  // namespace leafhull

@@ -3,15 +3,15 @@
 
 #include <array>
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <string>
-#include <string_view>
 #include <vector>
 
+#include "leafhull/api.h"
 #include "leafhull/device.h"
 #include "leafhull/leaves.h"
 #include "leafhull/options.h"
+#include "leafhull/progress.h"
 #include "leafhull/vec.h"
 
 namespace leafhull {
@@ -35,9 +35,6 @@ struct Mesh {
   std::vector<std::array<std::uint32_t, 3>> triangles;
   std::optional<Vec3f> colour;  ///< its material's, linear; none: leafhull's green
 };
-
-/// The sampled density; only leafhull's own stages look inside.
-class Field;
 
 struct DensityStatistics {  ///< N_iso over the leaf points, weighted by area
   double mean = 0, variance = 0, p1 = 0, p2 = 0;
@@ -87,6 +84,8 @@ struct Report {
 };
 
 struct Shape {
+  class Field;  ///< the sampled density, for leafhull's own stages
+
   Mesh mesh;
   std::vector<Kernel> kernels;           ///< one per leaf point
   std::vector<float> isotropic_density;  ///< N_iso(c_j), one per kernel
@@ -94,15 +93,12 @@ struct Shape {
   Report report;
 };
 
-/// Called on the caller's thread when a stage starts and as it proceeds; `done` is from 0 to 1.
-using Progress = std::function<void(std::string_view stage, double done)>;
-
 /// The abstract shape of a tree's leaves: the stages of Figure 8, one after the other. SPEC: 2
 /// to 6.
 /// @throws Error usage: options, or a resolution that does not fit in memory; input: no leaves, or
 ///         a crown without extent; device: a kernel that does not build (with its log) or run;
 ///         empty: no sample reaches the threshold.
-Shape extract(const LeafSet& leaves, const Options& options, Device& device,
-              const Progress& progress = {});
+LEAFHULL_API Shape extract(const LeafSet& leaves, const Options& options, Device& device,
+                           const Progress& progress = {});
 
 }  // namespace leafhull

@@ -3,15 +3,17 @@
 
 #include <array>
 #include <cstdint>
-#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "leafhull/api.h"
 #include "leafhull/device.h"
 #include "leafhull/leaves.h"
 #include "leafhull/options.h"
+#include "leafhull/output.h"
 #include "leafhull/picture.h"
+#include "leafhull/progress.h"
 #include "leafhull/shape.h"
 
 namespace leafhull {
@@ -45,8 +47,9 @@ struct StudyTime {
 /// Whether a claim holds; open: there are no figures to compare.
 enum class Outcome { holds, fails, open };
 
-std::string_view name(Outcome outcome);      ///< "holds", "fails", "open"
-std::string_view in_words(Outcome outcome);  ///< "holds", "does not hold", "cannot be told"
+LEAFHULL_API std::string_view name(Outcome outcome);  ///< "holds", "fails", "open"
+/// "holds", "does not hold", "cannot be told"
+LEAFHULL_API std::string_view in_words(Outcome outcome);
 
 /// One claim of the paper, or half of one, tested on one tree under one reading. Plain text.
 struct Verdict {
@@ -112,32 +115,34 @@ struct Study {
 };
 
 /// What the paper calls a method: "L&D", "UNCTRLED", "CTRLED".
-std::string_view paper_name(Method method);
+LEAFHULL_API std::string_view paper_name(Method method);
 
 /// Every reading: k = 1, 2 by stddev, variance by exact, grid; the project's own first.
-std::array<Reading, 8> readings();
+LEAFHULL_API std::array<Reading, 8> readings();
 
 /// The numbers that the paper prints in Tables 1 and 2. The curves of its Figures 11, 13 and 15 are
 /// not given as numbers and stay empty; it does not state T, R_max and lambda_R of Table 1, which
 /// are zero. Source: pp. 54-56; the tree has kPaperLeafVertices leaf vertices, the CPU is an AMD
 /// Athlon 64 3200+ at 2.01 GHz.
-const ReadingStudy& paper_results();
+LEAFHULL_API const ReadingStudy& paper_results();
 inline constexpr std::uint64_t kPaperLeafVertices = 52648;
 
 /// Verdicts on the paper's claims, from the tables and figures of `study` alone.
 /// @param band if given, claim 2b also says for which bands it holds; the verdict stays the same.
-std::vector<Verdict> verdicts(const ReadingStudy& study, const BandStudy* band = nullptr);
+LEAFHULL_API std::vector<Verdict> verdicts(const ReadingStudy& study,
+                                           const BandStudy* band = nullptr);
 
 /// The paper's evaluation of one tree under every reading. T is 2, R_max 1.5 crown units and
 /// lambda_R 0.7 unless they vary or are fitted; there are 64 voxels except in Table 2. Takes tens
 /// of seconds.
+/// @param progress `done` is the share of all the work, and even.
 /// @throws Error as extract does, except for an empty surface, which is a result.
-TreeStudy study_tree(const LeafSet& leaves, const std::string& name, Device& device,
-                     const Progress& progress = {});
+LEAFHULL_API TreeStudy study_tree(const LeafSet& leaves, const std::string& name, Device& device,
+                                  const Progress& progress = {});
 
 /// Writes report.html (with curves if gnuplot is installed) and study.json into `folder`, or
 /// neither. Makes the folder if it is missing.
 /// @throws Error output: which file and why.
-void write_study(const Study& study, const std::filesystem::path& folder);
+LEAFHULL_API void write_study(const Study& study, const OutputFolder& folder);
 
 }  // namespace leafhull

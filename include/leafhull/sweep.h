@@ -3,19 +3,19 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <filesystem>
-#include <functional>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "leafhull/api.h"
 #include "leafhull/device.h"
 #include "leafhull/leaves.h"
 #include "leafhull/options.h"
 #include "leafhull/output.h"
 #include "leafhull/picture.h"
+#include "leafhull/progress.h"
 #include "leafhull/shape.h"
 
 namespace leafhull {
@@ -27,18 +27,18 @@ struct SweptOption {
 };
 
 /// Whether a sweep may give the option several values: numbers and names of Shape and Resolution.
-bool can_sweep(const OptionRow& row);
+LEAFHULL_API bool can_sweep(const OptionRow& row);
 
 /// Parses the values in `text`: a range first:last:step of numbers, including the last if a step
 /// meets it; a list a,b,c; or one value, passed on unread. Numbers that end in % are values of the
 /// row's `percent`, or hundredths of a fraction.
 /// @throws Error usage: neither a range nor a list, a range without values, a step that is not
 /// above zero, a value given twice.
-SweptOption swept_option(const OptionRow& row, std::string_view text);
+LEAFHULL_API SweptOption swept_option(const OptionRow& row, std::string_view text);
 
 /// How many combinations there are.
 /// @throws Error usage: more than a sweep can hold, 100,000.
-std::size_t combination_count(std::span<const SweptOption> swept);
+LEAFHULL_API std::size_t combination_count(std::span<const SweptOption> swept);
 
 /// What a sweep extracts.
 struct SweepPlan {
@@ -48,8 +48,8 @@ struct SweepPlan {
 
 /// Where a sweep is kept.
 struct SweepFolder {
-  std::filesystem::path path;  ///< made where it does not exist
-  bool restart = false;        ///< first removes what another sweep left there
+  OutputFolder folder;   ///< made where it does not exist
+  bool restart = false;  ///< first removes what another sweep left there
 };
 
 /// A summary of one run of a sweep.
@@ -62,21 +62,17 @@ struct SweepSummary {
   std::vector<std::string> warnings;
 };
 
-/// Called before the first combination with the count that an earlier run finished, and as the
-/// sweep goes on.
-using SweepProgress =
-    std::function<void(std::string_view stage, std::size_t done, std::size_t combinations)>;
-
 /// Extracts every combination of `plan` and keeps in `folder`: sweep.csv and sweep.json, a row per
 /// combination in the order of `plan`; plot-OPTION.svg for every swept number; a picture of each
 /// combination in pictures/, and contact-sheet.png with all. Each finished
 /// combination is on disk at once (sweep.jsonl), so a sweep that was cut off resumes there. A row's
 /// seconds are the time it added to the rows before it: neighbours share their work.
+/// @param progress counts combinations, those of earlier runs from the start.
 /// @throws Error usage: the folder holds another sweep, or files of these names from elsewhere;
 ///         output: which file and why; and what extract_series throws.
-SweepSummary run_sweep(const LeafSet& leaves, const SweepPlan& plan, Device& device,
-                       const SweepFolder& folder, const RunDescription& run,
-                       const SweepProgress& progress = {});
+LEAFHULL_API SweepSummary run_sweep(const LeafSet& leaves, const SweepPlan& plan, Device& device,
+                                    const SweepFolder& folder, const RunDescription& run,
+                                    const Progress& progress = {});
 
 /// One choice of erosion and dilation, and its result.
 struct Suggestion {
@@ -98,7 +94,7 @@ struct Suggestions {
 };
 
 /// @throws Error as extract_series does.
-Suggestions suggest(const LeafSet& leaves, const Options& options, Device& device,
-                    std::string_view title, const Progress& progress = {});
+LEAFHULL_API Suggestions suggest(const LeafSet& leaves, const Options& options, Device& device,
+                                 std::string_view title, const Progress& progress = {});
 
 }  // namespace leafhull

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "leafhull/api.h"
 #include "leafhull/vec.h"
 
 namespace leafhull {
@@ -97,6 +98,7 @@ struct ReadOptions {
 /// Reads glTF 2.0 (.glb, .gltf), FBX or Wavefront OBJ; the default scene's nodes become instances,
 /// EXT_mesh_gpu_instancing included. FBX comes in metres and upright. SPEC: 1.
 /// @throws Error input: the file, its name, and what is wrong at which place in it.
-TreeModel read_tree(const std::filesystem::path& path, const ReadOptions& options = {});
+LEAFHULL_API TreeModel read_tree(const std::filesystem::path& path,
+                                 const ReadOptions& options = {});
 
 }  // namespace leafhull

@@ -67,36 +67,34 @@ void Console::warn(const std::string& line) {
   if (warnings_.insert(line).second) say("leafhull: warning: " + line);
 }
 
-void Console::progress(std::string_view stage, double done) {
-  if (stage == stage_ && Clock::now() - drawn_ < kRedraw) return;
-  draw(stage, done, seconds(since(start_)));
+void Console::progress(const Advance& now) {
+  // Where things are counted, stages are too short to follow each.
+  const bool begins = now.all > 0 ? !resumed_ : stage_ != now.stage;
+  if (now.all > 0 && begins) resumed_ = now.finished, resumed_at_ = Clock::now();
+  if (bar_ && (begins || Clock::now() - drawn_ >= kRedraw)) draw(now);
 }
 
-void Console::progress_of_all(std::string_view stage, double done) {
+std::optional<double> Console::seconds_left(const Advance& now) const {
+  if (now.is_even && now.done > 0) return since(start_) * (1 - now.done) / now.done;
+  if (now.all == 0 || now.finished <= *resumed_ || now.finished >= now.all) return std::nullopt;
+  const double pace = since(resumed_at_) / static_cast<double>(now.finished - *resumed_);
+  return pace * static_cast<double>(now.all - now.finished);
+}
+
+void Console::draw(const Advance& now) {
   const double gone = since(start_);
-  std::string beside = seconds(gone);
-  if (done > 0) beside += ", about " + duration(gone * (1 - done) / done) + " left";
-  draw(stage, done, beside);
-}
-
-void Console::progress(std::string_view stage, std::size_t done, std::size_t all,
-                       const std::string& facts) {
-  const bool begins = !resumed_;
-  if (begins) resumed_ = done, resumed_at_ = Clock::now();
-  if (!begins && Clock::now() - drawn_ < kRedraw)
-    return;  // its stages are too short to follow each
-  std::string beside = std::to_string(done) + " of " + std::to_string(all) + ", " +
-                       (facts.empty() ? "" : facts + ", ") + seconds(since(start_));
-  if (done > *resumed_ && done < all) {
-    const double pace = since(resumed_at_) / static_cast<double>(done - *resumed_);
-    beside += ", about " + duration(pace * static_cast<double>(all - done)) + " left";
+  double done = now.done;
+  std::string beside;
+  if (now.all > 0) {
+    done = static_cast<double>(now.finished) / static_cast<double>(now.all);
+    beside = std::to_string(now.finished) + " of " + std::to_string(now.all) + ", ";
+    if (now.resident_bytes > 0) {
+      beside += per_second(now.leaf_vertices, gone) + ", " + bytes(now.resident_bytes) + ", ";
+    }
   }
-  draw(stage, static_cast<double>(done) / static_cast<double>(all), beside);
-}
-
-void Console::draw(std::string_view stage, double done, const std::string& beside) {
-  if (!bar_) return;
-  stage_ = stage;
+  beside += seconds(gone);
+  if (const auto left = seconds_left(now)) beside += ", about " + duration(*left) + " left";
+  stage_ = now.stage;
   drawn_ = Clock::now();
   std::string name = stage_;
   name.resize(std::max<std::size_t>(name.size(), 10), ' ');

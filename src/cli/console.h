@@ -6,7 +6,8 @@
 #include <optional>
 #include <set>
 #include <string>
-#include <string_view>
+
+#include "leafhull/progress.h"
 
 namespace leafhull::cli {
 
@@ -21,21 +22,17 @@ class Console {
   void detail(const std::string& line);  ///< where verbose
   void warn(const std::string& line);    ///< unless quiet; each line only once
 
-  /// A bar with the stage and the time since the start, on a terminal only.
-  void progress(std::string_view stage, double done);
-  /// The same where `done` is the share of all the work, with the time left.
-  void progress_of_all(std::string_view stage, double done);
-  /// The same for a number of things: how many are done, and the time left at their pace. Things
-  /// already done at the first call, or at the first after count_anew(), do not count for the pace.
-  /// `facts` are shown beside them.
-  void progress(std::string_view stage, std::size_t done, std::size_t all,
-                const std::string& facts = {});
+  /// A bar with the stage, what is counted, the time since the start and, where it can be told, the
+  /// time left; on a terminal only. Things already finished at the first call, or at the first
+  /// after count_anew(), do not count for their pace.
+  void progress(const Advance& now);
   void count_anew() { resumed_.reset(); }
 
  private:
   using Clock = std::chrono::steady_clock;
 
-  void draw(std::string_view stage, double done, const std::string& beside);
+  std::optional<double> seconds_left(const Advance& now) const;
+  void draw(const Advance& now);
 
   bool quiet_, verbose_, bar_;
   Clock::time_point start_ = Clock::now(), drawn_{};

@@ -51,7 +51,7 @@ LeafSet Context::read_leaves(const LeafOptions& options) {
 }
 
 Progress Context::progress() {
-  return [this](std::string_view stage, double done) { console.progress(stage, done); };
+  return [this](const Advance& now) { console.progress(now); };
 }
 
 void Context::add_times(const std::vector<StageTime>& times) {

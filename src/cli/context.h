@@ -55,7 +55,7 @@ class Context {
   /// Runs `work` as a stage and returns its result.
   template <class Work>
   auto timed(std::string_view stage, Work&& work) {
-    console.progress(stage, 0);
+    console.progress({.stage = stage});
     const auto begin = std::chrono::steady_clock::now();
     auto result = work();
     times_.push_back({std::string(stage), since(begin)});

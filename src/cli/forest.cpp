@@ -75,20 +75,19 @@ void check_name(const fs::path& file, std::string_view what, const fs::path& fol
   }
 }
 
-/// Checks an output file; the forest's own folder may not exist yet.
-void check_file(const fs::path& file, std::string_view extension, const Arguments& arguments,
-                const fs::path& input) {
-  const bool in_folder = fs::proximate(file, arguments.output).parent_path().empty();
-  const bool is_named_well = lower_extension(file) == extension;
-  if (in_folder && is_named_well && !fs::exists(arguments.output)) return;
-  check_output(file, extension, input);
-}
-
-void check_forest_arguments(const Arguments& arguments, const ForestOptions& forest) {
+ForestPlan plan_of(const Arguments& arguments) {
   if (arguments.output.empty()) {
     throw Error(ErrorCode::usage, "no folder for the forest is named", "Name one: -o out/.");
   }
-  check_forest(forest);
+  ForestOptions options = arguments.forest;
+  options.shape = arguments.options;
+  // Names are typed relative to the working folder.
+  if (options.single) options.single = fs::proximate(*options.single, arguments.output);
+  return plan_forest(options, arguments.output);
+}
+
+/// Checks that nothing typed has a name of the forest's own, and the mesh of `--single`.
+void check_names(const Arguments& arguments, const OutputFolder& folder) {
   check_name(arguments.operand, "the scene", arguments.output);
   if (const std::optional<fs::path>& single = arguments.forest.single) {
     const std::string extension = lower_extension(*single);
@@ -97,23 +96,26 @@ void check_forest_arguments(const Arguments& arguments, const ForestOptions& for
                   "Name a .glb or .ply file.");
     }
     check_name(*single, "--single", arguments.output);
-    check_file(*single, extension, arguments, arguments.operand);
+    (void)folder.file(*single, extension, {arguments.operand});
   }
   const std::optional<fs::path>& report = arguments.files.report;
-  if (report && *report != "-") {
-    check_name(*report, "--report", arguments.output);
-    check_file(*report, ".json", arguments, arguments.operand);
-  }
-  check_output_folder(arguments.output);
+  if (report && *report != "-") check_name(*report, "--report", arguments.output);
+}
+
+/// The report's file; empty where there is none, or where it is standard output.
+std::optional<OutputFile> report_file(const Arguments& arguments, const OutputFolder& folder) {
+  const std::optional<fs::path>& report = arguments.files.report;
+  if (!report || *report == "-") return std::nullopt;
+  return folder.file(*report, ".json", {arguments.operand});
 }
 
 /// Checks that the forest does not overwrite its trees.
-void check_models(const Arguments& arguments, const Scene& scene) {
+void check_models(const Arguments& arguments, const OutputFolder& folder, const Scene& scene) {
   const std::optional<fs::path>& single = arguments.forest.single;
   for (const SceneModel& model : scene.models) {
     if (model.file.empty()) continue;
     check_name(model.file, "the model", arguments.output);
-    if (single) check_file(*single, lower_extension(*single), arguments, model.file);
+    if (single) (void)folder.file(*single, lower_extension(*single), {model.file});
   }
 }
 
@@ -158,13 +160,6 @@ void warn_of_memory(const Arguments& arguments, Context& context) {
   context.warn({"--memory only bounds a canopy; --merge none takes what its models need"});
 }
 
-std::string per_second(double leaf_vertices, double seconds) {
-  const double pace = seconds > 0 ? leaf_vertices / seconds : 0;
-  const std::string text =
-      pace < 1e6 ? count(static_cast<std::uint64_t>(pace)) : number(pace / 1e6, 3) + " M";
-  return text + " leaf vertices/s";
-}
-
 std::string tiles_in_words(const ForestSummary& summary) {
   std::string text = counted(summary.tiles, "tile");
   if (summary.resumed > 0) text += ", " + count(summary.resumed) + " of them from an earlier run";
@@ -188,21 +183,20 @@ void say_summary(Context& context, const ForestSummary& summary, const Arguments
   text += ": " + count(summary.mesh_triangles) + " triangles in " + seconds(elapsed) + ", " +
           bytes(summary.peak_memory_bytes) + " at most";
   if (leaf_vertices > 0) {
-    text += ", " + per_second(static_cast<double>(leaf_vertices), elapsed);
+    text += ", " + per_second(leaf_vertices, elapsed);
   }
   context.console.say(text + ": " + arguments.output.string());
 }
 
 void write_report(const ForestSummary& summary, const Arguments& arguments,
-                  const ForestOptions& options) {
-  const std::optional<fs::path>& file = arguments.files.report;
-  if (!file) return;
+                  const ForestOptions& options, const std::optional<OutputFile>& file) {
+  if (!arguments.files.report) return;
   const std::string report =
       forest_report_json(summary, options, {arguments.operand.string(), arguments.command});
-  if (*file == "-") {
-    std::cout << report;
+  if (file) {
+    file->write(report);
   } else {
-    write_file(*file, report);
+    std::cout << report;
   }
 }
 
@@ -232,22 +226,20 @@ void make_forest(const Arguments& arguments, Ranks& ranks) {
   Console& console = context.console;
   check_ranks_agree(arguments, ranks);
   check_ranks_share_all(arguments, ranks);
-  ForestOptions options = arguments.forest;
-  options.shape = arguments.options;
-  check_forest_arguments(arguments, options);
+  const ForestPlan plan = plan_of(arguments);
+  check_names(arguments, plan.folder());
+  const std::optional<OutputFile> report = report_file(arguments, plan.folder());
   warn_of_memory(arguments, context);
-  // Names are typed relative to the working folder.
-  if (options.single) options.single = fs::proximate(*options.single, arguments.output);
-  ForestWords words(ranks, arguments.quiet, how_to_go_on(options));
+  ForestWords words(ranks, arguments.quiet, how_to_go_on(plan.options()));
 
   const Options shape = resolve(arguments.options);
   const DeviceOptions shared = device_of(arguments, ranks);
   const ThreadLimit limit(shared.threads);
   context.open_device(shared, shape.falloff);
-  console.progress("read", 0);
+  console.progress({.stage = "read"});
   const Scene scene = read_scene(arguments.operand, shape.leaf_options(), shape.read_options());
   context.warn(scene.warnings);
-  check_models(arguments, scene);
+  check_models(arguments, plan.folder(), scene);
   Device& device = context.device();
   console.detail("device      " + device.info().name);
   console.detail("scene       " + counted(scene.trees.size(), "tree") + " of " +
@@ -258,28 +250,27 @@ void make_forest(const Arguments& arguments, Ranks& ranks) {
                    counted(static_cast<std::uint64_t>(device.threads()), "thread"));
   }
 
+  std::string stage;
+  std::size_t finished = 0;
   std::uint64_t leaf_vertices = 0;
-  ForestProgress last;
-  const auto advance = [&](const ForestProgress& now) {
+  const auto advance = [&](const Advance& now) {
+    if (now.stage != stage || now.finished < finished) console.count_anew();
+    stage = now.stage;
+    finished = now.finished;
     leaf_vertices = now.leaf_vertices;
-    if (now.stage != last.stage || now.tiles_done < last.tiles_done) console.count_anew();
-    last = now;
-    if (now.tiles == 0) return console.progress(now.stage, 0);
-    if (now.stage == "tiles") words.set_tiles(now.tiles);
-    console.progress(now.stage, now.tiles_done, now.tiles,
-                     per_second(static_cast<double>(leaf_vertices), context.elapsed()) + ", " +
-                         bytes(now.resident_bytes));
+    if (now.stage == "tiles" && now.all > 0) words.set_tiles(now.all);
+    console.progress(now);
   };
   const ForestSummary summary = [&] {
     try {
-      return run_forest(scene, options, device, ranks, arguments.output, advance);
+      return run_forest(scene, plan, device, ranks, advance);
     } catch (const std::exception&) {
       rethrow_with(words.still_to_do());
     }
   }();
   if (!speaks) return;
   context.warn(summary.warnings);
-  write_report(summary, arguments, options);
+  write_report(summary, arguments, plan.options(), report);
   // Where the run did all, on any number of ranks, count the trees' own leaf vertices.
   const bool did_all = summary.resumed == 0 && summary.remaining == 0;
   say_summary(context, summary, arguments, did_all ? summary.leaf_vertices : leaf_vertices);

@@ -252,7 +252,7 @@ void run_inspect(const Arguments& arguments) {
   Context context(arguments);
   const LeafOptions options = resolve(arguments.options).leaf_options();
   const TreeModel tree = context.read(arguments.operand);
-  context.console.progress("leaves", 0);
+  context.console.progress({.stage = "leaves"});
   const LeafChoice choice = choose_leaves(tree, options);
   std::optional<LeafSet> leaves;
   std::optional<Error> failure;

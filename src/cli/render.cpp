@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <iostream>
 #include <memory>
 #include <span>
@@ -142,14 +141,11 @@ class Run {
 
   void write_figure17(const std::shared_ptr<const TreeModel>& model, const LeafSet& leaves,
                       Device& device) {
-    const fs::path& file = arguments_.render.files.front();
-    const Picture plate =
-        figure17(model, leaves, arguments_.options, *arguments_.render.figure17,
-                 surfacing(arguments_), plan_.picture, device, context_.progress());
-    const std::vector<std::uint8_t> png = encode_png(plate);
-    write_file(file, {reinterpret_cast<const char*>(png.data()), png.size()});
+    leafhull::write_figure17(model, leaves, arguments_.options, surfacing(arguments_), plan_,
+                             device, context_.progress());
     context_.console.say("leafhull: Figure 17 of " + arguments_.operand.filename().string() +
-                         " in " + seconds(context_.elapsed()) + ": " + file.string());
+                         " in " + seconds(context_.elapsed()) + ": " +
+                         plan_.files.png.front().string());
   }
 
   /// Writes the shape, the last of `row`, with what stands beside it.
@@ -160,18 +156,7 @@ class Run {
                               count(static_cast<std::uint64_t>(report.resolution)) + " voxels of " +
                               number(report.voxel_size, 4));
     }
-    const int frames = arguments_.render.frames.value_or(0);
-    const PictureSummary summary =
-        write_pictures(row, plan_, device, [&](std::string_view stage, double done) {
-          if (frames == 0) {
-            context_.console.progress(stage, done);
-          } else {
-            // A frame counts once it is drawn; its share is not exact.
-            context_.console.progress(stage,
-                                      static_cast<std::size_t>(std::floor(done * frames + 1e-6)),
-                                      static_cast<std::size_t>(frames));
-          }
-        });
+    const PictureSummary summary = write_pictures(row, plan_, device, context_.progress());
     context_.warn(summary.warnings);
     for (std::vector<StageTime> times : {report.seconds, summary.seconds}) {
       std::erase_if(times, [](const StageTime& time) { return time.stage == "total"; });

@@ -45,7 +45,7 @@ void run_scatter(const Arguments& arguments) {
   options.leaves = resolve(arguments.options).leaf_options();
   options.reading = arguments.options.read_options();
   catch_signals();
-  context.console.progress("scatter", 0);
+  context.console.progress({.stage = "scatter"});
   write_scatter(options, arguments.output);
   context.console.say("leafhull: " + counted(options.count, "tree") + " of " +
                       counted(options.trees.size(), "model") + " in " + seconds(context.elapsed()) +

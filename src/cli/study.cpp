@@ -32,7 +32,8 @@ std::vector<Flag> study_output_flags() {
   return flags_of(rows);
 }
 
-void check_study_arguments(const Arguments& arguments) {
+/// Checks the trees and the folder for the report.
+OutputFolder checked_folder(const Arguments& arguments) {
   if (arguments.output.empty()) {
     throw Error(ErrorCode::usage, "no folder for the report is given", "Give one: -o study/.");
   }
@@ -46,7 +47,7 @@ void check_study_arguments(const Arguments& arguments) {
       throw Error(ErrorCode::usage, tree->string() + " is given twice", "Give each tree once.");
     }
   }
-  check_output_folder(arguments.output);
+  return OutputFolder(arguments.output);
 }
 
 /// Names for the trees in the report: their files' stems, numbered where two are the same.
@@ -130,7 +131,7 @@ void print_verdicts(const TreeStudy& tree) {
 
 void run_study(const Arguments& arguments) {
   Context context(arguments);
-  check_study_arguments(arguments);
+  const OutputFolder folder = checked_folder(arguments);
   const Options options = resolve(arguments.options);
   catch_signals(arguments.quiet ? "" : "leafhull: stopped; a study is written at its end\n");
   context.open_device(readings().front().falloff);
@@ -145,10 +146,10 @@ void run_study(const Arguments& arguments) {
   for (std::size_t i = 0; i < trees.size(); ++i) {
     const std::string tree =
         "tree " + std::to_string(i + 1) + " of " + std::to_string(trees.size()) + ": ";
-    const auto progress = [&](std::string_view stage, double done) {
-      context.console.progress_of_all(
-          tree + std::string(stage),
-          (static_cast<double>(i) + done) / static_cast<double>(trees.size()));
+    const auto progress = [&](const Advance& now) {
+      const std::string stage = tree + std::string(now.stage);
+      const double done = (static_cast<double>(i) + now.done) / static_cast<double>(trees.size());
+      context.console.progress({.stage = stage, .done = done, .is_even = now.is_even});
     };
     study.trees.push_back(study_tree(trees[i], names[i], device, progress));
   }
@@ -158,8 +159,8 @@ void run_study(const Arguments& arguments) {
   study.date = today();
   study.command = without_folders(arguments);
   study.seconds = context.elapsed();
-  context.console.progress("write", 0);
-  write_study(study, arguments.output);
+  context.console.progress({.stage = "write"});
+  write_study(study, folder);
   clear_progress();
   for (const TreeStudy& tree : study.trees) print_verdicts(tree);
   context.console.say("leafhull: " + (arguments.output / "report.html").string() + " in " +

@@ -10,6 +10,7 @@
 #include "cli/values.h"
 #include "cli/verb.h"
 #include "leafhull/error.h"
+#include "leafhull/output.h"
 #include "leafhull/sweep.h"
 #include "leafhull/tree.h"
 
@@ -88,9 +89,9 @@ void run_suggest(const Arguments& arguments) {
   Context context(arguments);
   const Options options = arguments.options;
   const LeafOptions leaf_options = resolve(options).leaf_options();
-  std::filesystem::path picture = arguments.output;
-  if (picture.empty()) picture = arguments.operand.stem().string() + "-suggest.png";
-  check_output(picture, ".png", arguments.operand);
+  const std::filesystem::path by_default = arguments.operand.stem().string() + "-suggest.png";
+  const OutputFile picture(arguments.output.empty() ? by_default : arguments.output, ".png",
+                           {arguments.operand});
   catch_signals();
 
   context.open_device(options.falloff);
@@ -98,15 +99,15 @@ void run_suggest(const Arguments& arguments) {
   const Suggestions suggestions = suggest(
       leaves, options, context.device(), arguments.operand.filename().string(), context.progress());
   const std::vector<std::uint8_t> png = encode_png(suggestions.strip);
-  write_file(picture, {reinterpret_cast<const char*>(png.data()), png.size()});
+  picture.write({reinterpret_cast<const char*>(png.data()), png.size()});
 
   clear_progress();
   if (arguments.json) {
-    print_json(arguments, suggestions.choices, picture);
+    print_json(arguments, suggestions.choices, picture.path());
   } else {
     print_table(arguments, suggestions.choices);
   }
-  context.console.say("leafhull: pictures of all nine: " + picture.string());
+  context.console.say("leafhull: pictures of all nine: " + picture.path().string());
 }
 
 std::vector<Flag> picture_flags() {

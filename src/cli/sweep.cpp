@@ -120,8 +120,7 @@ void run_sweep_verb(const Arguments& arguments) {
   Context context(arguments);
   check_sweep_arguments(arguments);
   const SweepPlan plan = plan_of(arguments);
-  const std::string folder = arguments.output.string();
-  check_output_folder(arguments.output);
+  const OutputFolder folder(arguments.output);
   catch_signals();
 
   context.open_device(first_falloff(plan));
@@ -133,20 +132,20 @@ void run_sweep_verb(const Arguments& arguments) {
                  count(leaves.vertices.size()) + " vertices");
   catch_signals(arguments.quiet
                     ? ""
-                    : "leafhull: stopped; what is done is in " + folder + ": the same command" +
-                          (arguments.restart ? " without --restart" : "") +
+                    : "leafhull: stopped; what is done is in " + folder.path().string() +
+                          ": the same command" + (arguments.restart ? " without --restart" : "") +
                           " continues from there\n");
 
   bool begun = false;
-  const SweepSummary summary = run_sweep(
-      leaves, plan, device, {arguments.output, arguments.restart},
-      {arguments.operand.string(), arguments.command},
-      [&](std::string_view stage, std::size_t done, std::size_t all) {
-        if (!std::exchange(begun, true) && done > 0) {
-          console.say("leafhull: resuming: " + count(done) + " of " + count(all) + " done");
-        }
-        console.progress(stage, done, all);
-      });
+  const SweepSummary summary =
+      run_sweep(leaves, plan, device, {folder, arguments.restart},
+                {arguments.operand.string(), arguments.command}, [&](const Advance& now) {
+                  if (!std::exchange(begun, true) && now.finished > 0) {
+                    console.say("leafhull: resuming: " + count(now.finished) + " of " +
+                                count(now.all) + " done");
+                  }
+                  console.progress(now);
+                });
   context.warn(summary.warnings);
   say_summary(context, summary, arguments);
 }

@@ -215,6 +215,13 @@ std::string bytes(std::uint64_t value) {
                           : significant(mebibytes / 1024, 3) + " GiB";
 }
 
+std::string per_second(std::uint64_t leaf_vertices, double seconds) {
+  const double pace = seconds > 0 ? static_cast<double>(leaf_vertices) / seconds : 0;
+  const std::string text =
+      pace < 1e6 ? count(static_cast<std::uint64_t>(pace)) : number(pace / 1e6, 3) + " M";
+  return text + " leaf vertices/s";
+}
+
 std::string counted(std::uint64_t things, const std::string& name) {
   return count(things) + " " + name + (things == 1 ? "" : "s");
 }

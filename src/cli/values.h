@@ -101,8 +101,9 @@ std::string quoted(const std::string& word);
 /// With at most `digits` significant digits.
 inline std::string number(double value, int digits = 6) { return significant(value, digits); }
 inline std::string count(std::uint64_t value) { return grouped(value); }
-std::string seconds(double value);       ///< 0.123 s
-std::string bytes(std::uint64_t value);  ///< 512 MiB, 1.5 GiB
+std::string seconds(double value);                                    ///< 0.123 s
+std::string bytes(std::uint64_t value);                               ///< 512 MiB, 1.5 GiB
+std::string per_second(std::uint64_t leaf_vertices, double seconds);  ///< 1.5 M leaf vertices/s
 /// "1 tree", "2 trees"
 std::string counted(std::uint64_t things, const std::string& name);
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "density/lattice.h"
+#include "leafhull/shape.h"
 
 namespace leafhull {
 
@@ -22,7 +23,7 @@ struct BrickPart {
 
 /// The density N on the lattice: samples where a surface may be, whole blocks where N is proven to
 /// be at least a threshold, and nothing where it is proven to be below all.
-class Field {
+class Shape::Field {
  public:
   explicit Field(const Lattice& lattice = {}, double threshold = 0);
 
@@ -61,6 +62,7 @@ class Field {
   std::shared_ptr<Grid> grid_;  ///< fields of other thresholds share it
   std::vector<InsideBlock> inside_;
 };
+using Field = Shape::Field;
 
 /// The lowest value of a sample inside. It also fills blocks that are proven inside.
 float inside_value(double threshold);

@@ -30,7 +30,7 @@ struct Candidate {
 struct Candidates {
   std::vector<Candidate> list;                     ///< in file order
   std::vector<std::vector<std::uint8_t>> part_of;  ///< by primitive and triangle; empty: one part
-  WeldedPrimitives welded;
+  LeafChoice::Welded welded;
 };
 
 /// Finds candidates among the instances that `levels` keeps. @param looked_at by instance, whether

@@ -203,7 +203,7 @@ LeafChoice choose_leaves(const TreeModel& tree, std::span<const Instance> instan
   choice.told = told_words(candidates.list, levels);
   if (options.globs.empty() && !options.colour) warn_of_doubt(candidates.list, is_guess, choice);
   asked.warn_of_unused(choice.warnings);
-  choice.welded = std::make_shared<const WeldedPrimitives>(std::move(candidates.welded));
+  choice.welded = std::make_shared<const LeafChoice::Welded>(std::move(candidates.welded));
 
   std::ranges::stable_sort(candidates.list, [](const Candidate& a, const Candidate& b) {
     if (is_chosen(a) != is_chosen(b)) return is_chosen(a);

@@ -36,7 +36,7 @@ ModelShape shape_of(const SceneModel& model, const LeafSet& leaves, const Option
 
 ForestSummary merge_none(const Scene& scene, const ForestOptions& options, Device& device,
                          Ranks& ranks, const std::filesystem::path& folder,
-                         const ForestProgressVisitor& progress) {
+                         const Progress& progress) {
   const Progress none;
   Stopwatch watch(none);
   ForestSummary summary;
@@ -45,8 +45,9 @@ ForestSummary merge_none(const Scene& scene, const ForestOptions& options, Devic
   const auto tell = [&](std::string_view stage, std::size_t done) {
     if (!progress) return;
     progress({.stage = stage,
-              .tiles_done = done,
-              .tiles = scene.models.size(),
+              .done = static_cast<double>(done) / static_cast<double>(scene.models.size()),
+              .finished = done,
+              .all = scene.models.size(),
               .leaf_vertices = summary.leaf_vertices,
               .resident_bytes = resident_memory()});
   };

@@ -11,6 +11,6 @@ namespace leafhull {
 /// @throws Error as run_forest.
 ForestSummary merge_none(const Scene& scene, const ForestOptions& options, Device& device,
                          Ranks& ranks, const std::filesystem::path& folder,
-                         const ForestProgressVisitor& progress);
+                         const Progress& progress);
 
 }  // namespace leafhull

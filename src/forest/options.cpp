@@ -117,11 +117,12 @@ std::span<const ForestOptionRow> forest_table() {
   return rows;
 }
 
-void check_forest(const ForestOptions& options) {
+ForestPlan plan_forest(ForestOptions options, const std::filesystem::path& folder) {
   (void)resolve(options.shape);
   check_rows(forest_table(), options);
   check_contradictions(options);
   check_shape(options);
+  return {std::move(options), OutputFolder(folder)};
 }
 
 }  // namespace leafhull

@@ -90,7 +90,7 @@ class Permit {
 class Run {
  public:
   Run(const Scene& scene, const ForestOptions& options, Device& device, Ranks& ranks,
-      const std::filesystem::path& folder, const ForestProgressVisitor& progress)
+      const std::filesystem::path& folder, const Progress& progress)
       : scene_(scene),
         options_(options),
         device_(device),
@@ -122,8 +122,9 @@ class Run {
   void tell(std::string_view stage, std::size_t done, std::size_t all) {
     if (!progress_) return;
     progress_({.stage = stage,
-               .tiles_done = done,
-               .tiles = all,
+               .done = all > 0 ? static_cast<double>(done) / static_cast<double>(all) : 0,
+               .finished = done,
+               .all = all,
                .leaf_vertices = leaf_vertices_,
                .resident_bytes = resident_memory()});
   }
@@ -360,7 +361,7 @@ class Run {
   Device& device_;
   Ranks& ranks_;
   const std::filesystem::path& folder_;
-  const ForestProgressVisitor& progress_;
+  const Progress& progress_;
   const Progress no_progress_;
   Stopwatch watch_{no_progress_};
   Forest forest_;
@@ -375,11 +376,10 @@ class Run {
 
 }  // namespace
 
-ForestSummary run_forest(const Scene& scene, const ForestOptions& options, Device& device,
-                         Ranks& ranks, const std::filesystem::path& folder,
-                         const ForestProgressVisitor& progress) {
-  check_forest(options);
-  check_output_folder(folder);
+ForestSummary run_forest(const Scene& scene, const ForestPlan& plan, Device& device, Ranks& ranks,
+                         const Progress& progress) {
+  const ForestOptions& options = plan.options();
+  const std::filesystem::path& folder = plan.folder().path();
   const ThreadLimit limit(device.threads());
   const bool is_new = !std::filesystem::exists(folder);
   try {

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "leafhull/tree.h"
+#include "leafhull/leaves.h"
 
 namespace leafhull {
 
@@ -62,7 +62,7 @@ struct WeldedMesh {
 std::vector<std::uint32_t> weld_positions(const Primitive& primitive);
 
 /// What weld_positions() returns for each primitive of a tree; a primitive may have none.
-struct WeldedPrimitives {
+struct LeafChoice::Welded {
   std::vector<std::vector<std::uint32_t>> of;
 };
 

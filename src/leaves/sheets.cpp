@@ -161,7 +161,7 @@ void SheetCollector::begin_solid(std::span<const EigenTriangle> closed,
 }
 
 void SheetCollector::append(SheetCollector&& next) {
-  LeafSheets& other = *next.sheets_;
+  LeafSet::Sheets& other = *next.sheets_;
   std::vector<Charts::iterator> known(other.charts.size());
   for (auto chart = next.charts_.begin(); chart != next.charts_.end(); ++chart) {
     known[chart->second] = chart;
@@ -204,7 +204,7 @@ void SheetCollector::sort_solids() {
   solids = std::move(sorted);
 }
 
-std::shared_ptr<const LeafSheets> SheetCollector::finish(const Box& crown) {
+std::shared_ptr<const LeafSet::Sheets> SheetCollector::finish(const Box& crown) {
   std::vector<LeafSheet>& sheets = sheets_->sheets;
   const auto code = [&](std::uint32_t i) {
     return morton_code(sheets[i].at(sheets_->charts[sheets[i].chart].centre), crown);

@@ -40,7 +40,7 @@ struct LeafSheet {
 };
 
 /// The leaves of a tree as visible area, in an order that depends on the geometry alone.
-struct LeafSheets {
+struct LeafSet::Sheets {
   std::vector<LeafChart> charts;
   std::vector<LeafSheet> sheets;
   std::vector<LeafSolid> solids;  ///< with a volume and visible area
@@ -70,7 +70,7 @@ class SheetCollector {
   void reserve(std::size_t leaves) { sheets_->sheets.reserve(leaves); }
 
   /// All leaves, sorted. `crown` is the box without strays, which must not move other leaves.
-  std::shared_ptr<const LeafSheets> finish(const Box& crown);
+  std::shared_ptr<const LeafSet::Sheets> finish(const Box& crown);
 
  private:
   using Triangles = std::vector<std::array<Vec2d, 3>>;
@@ -83,7 +83,7 @@ class SheetCollector {
 
   const SheetCollector* known_;
   std::int32_t solid_ = -1;
-  std::shared_ptr<LeafSheets> sheets_ = std::make_shared<LeafSheets>();
+  std::shared_ptr<LeafSet::Sheets> sheets_ = std::make_shared<LeafSet::Sheets>();
   Charts charts_;
 };
 

@@ -6,6 +6,7 @@
 
 #include <cerrno>
 #include <system_error>
+#include <utility>
 
 #include "leafhull/output.h"
 #include "output/write_error.h"
@@ -48,22 +49,22 @@ bool may_access(const fs::path& path, int mode) {
 
 }  // namespace
 
-void check_output_folder(const fs::path& name) {
+OutputFolder::OutputFolder(fs::path folder) : path_(std::move(folder)) {
   std::error_code error;
-  fs::path existing = fs::absolute(name, error);
+  fs::path existing = fs::absolute(path_, error);
   while (!error && !fs::exists(existing, error) && existing.has_relative_path()) {
     existing = existing.parent_path();
   }
-  if (error) throw write_error(name, error.value());
+  if (error) throw write_error(path_, error.value());
   if (!fs::is_directory(existing)) {
     throw Error(ErrorCode::output,
-                "cannot write into " + name.string() + ": " + existing.string() + " is a file",
+                "cannot write into " + path_.string() + ": " + existing.string() + " is a file",
                 "Name a folder.");
   }
   if (!may_access(existing, W_OK | X_OK)) {
     throw Error(
         ErrorCode::output,
-        "cannot write into " + name.string() + ": " + existing.string() + " may not be written to",
+        "cannot write into " + path_.string() + ": " + existing.string() + " may not be written to",
         "Name another folder.");
   }
 }
@@ -91,8 +92,9 @@ fs::path resolve_destination(const fs::path& name) {
 
 void Destinations::add(const fs::path& file) {
   const fs::path destination = resolve_destination(file);
-  std::error_code unreadable;
-  if (destination == fs::weakly_canonical(input_, unreadable)) {
+  for (const fs::path& input : inputs_) {
+    std::error_code unreadable;
+    if (destination != fs::weakly_canonical(input, unreadable)) continue;
     throw Error(ErrorCode::usage, "the output " + file.string() + " is the input itself",
                 "Name another file.");
   }

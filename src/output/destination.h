@@ -5,6 +5,7 @@
 #include <map>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace leafhull {
 
@@ -13,16 +14,16 @@ namespace leafhull {
 /// @throws Error output: its folder does not exist or is not writable.
 std::filesystem::path resolve_destination(const std::filesystem::path& name);
 
-/// The files that a run is to write: none is its input, and none is written twice.
+/// The files that a run is to write: none is an input, and none is written twice.
 class Destinations {
  public:
-  explicit Destinations(std::filesystem::path input) : input_(std::move(input)) {}
+  explicit Destinations(std::vector<std::filesystem::path> inputs) : inputs_(std::move(inputs)) {}
 
-  /// @throws Error usage: `file` is the input or was added before; output: as above.
+  /// @throws Error usage: `file` is an input or was added before; output: as above.
   void add(const std::filesystem::path& file);
 
  private:
-  std::filesystem::path input_;
+  std::vector<std::filesystem::path> inputs_;
   std::map<std::filesystem::path, std::filesystem::path> names_;  ///< by destination
 };
 

@@ -110,7 +110,7 @@ OutputPlan plan_outputs(OutputFiles files, const fs::path& input) {
     check_extension(*files.report, "the report", ".json");
   }
 
-  Destinations destinations(input);
+  Destinations destinations({input});
   for (const fs::path& file : named_files(files)) destinations.add(file);
   return OutputPlan(std::move(files));
 }
@@ -181,15 +181,21 @@ std::span<const OutputOptionRow> output_table() {
   return rows;
 }
 
-void check_output(const fs::path& file, std::string_view extension, const fs::path& input) {
-  check_extension(file, "the result", extension);
-  Destinations(input).add(file);
+OutputFile::OutputFile(fs::path file, std::string_view extension,
+                       const std::vector<fs::path>& inputs)
+    : path_(std::move(file)) {
+  check_extension(path_, "the result", extension);
+  Destinations(inputs).add(path_);
 }
 
-void write_file(const fs::path& file, std::string_view bytes) {
-  Transaction transaction;
-  transaction.write(file, [&](std::ostream& stream) { stream << bytes; });
-  transaction.commit();
+void OutputFile::write(std::string_view bytes) const { write_file(path_, bytes); }
+
+OutputFile OutputFolder::file(const fs::path& name, std::string_view extension,
+                              const std::vector<fs::path>& inputs) const {
+  const bool is_within = fs::proximate(name, path_).parent_path().empty();
+  const bool is_named_well = lower_extension(name) == extension;
+  if (is_within && is_named_well && !fs::exists(path_)) return OutputFile(name);
+  return {name, extension, inputs};
 }
 
 }  // namespace leafhull

@@ -57,6 +57,12 @@ void Transaction::commit() {
   entries_.clear();  // also removes the files that were replaced
 }
 
+void write_file(const std::filesystem::path& name, std::string_view bytes) {
+  Transaction transaction;
+  transaction.write(name, [&](std::ostream& stream) { stream << bytes; });
+  transaction.commit();
+}
+
 void Transaction::Entry::put_in_place() {
   const bool exists = ::access(destination.c_str(), F_OK) == 0;
   if (exists && exchange(file.path(), destination.c_str())) {

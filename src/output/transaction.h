@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <functional>
 #include <ostream>
+#include <string_view>
 #include <vector>
 
 #include "output/temporary_file.h"
@@ -43,5 +44,9 @@ class Transaction {
 
   std::vector<Entry> entries_;
 };
+
+/// Writes the whole file or leaves it as it was.
+/// @throws Error output.
+void write_file(const std::filesystem::path& name, std::string_view bytes);
 
 }  // namespace leafhull

@@ -154,7 +154,8 @@ std::string study_json(const Study& study) {
 
 }  // namespace
 
-void write_study(const Study& study, const fs::path& folder) {
+void write_study(const Study& study, const OutputFolder& into) {
+  const fs::path& folder = into.path();
   const std::vector<TreePlots> plots = draw_plots(study);
   std::error_code error;
   const bool is_new = fs::create_directories(folder, error);

@@ -10,12 +10,12 @@
 #include "leafhull/error.h"
 #include "picture/check_picture.h"
 #include "picture/parts.h"
+#include "picture/style.h"
 #include "pipeline/stopwatch.h"
 #include "render/draw_buffers.h"
 #include "render/exr.h"
 #include "render/light.h"
 #include "render/shade.h"
-#include "watercolour/style.h"
 
 namespace leafhull {
 namespace {
@@ -134,11 +134,11 @@ Picture Artist::shade(const Subject::Parts& parts, const render::Buffers& buffer
     case Look::watercolour: {
       if (!painter_) painter_.emplace(device_);
       const WatercolourStyle style =
-          options.style ? options.style
-                        : read_watercolour_style(std::string(watercolour_styles().front()));
+          options.style ? *options.style
+                        : WatercolourStyle(std::string(watercolour_styles().front()));
       const auto strokes = strokes_of(parts, camera, options.width, options.height);
       const std::vector<Vec3f> tones = tones_of(parts);
-      return painter_->paint(buffers, {strokes, tones, mark_of(parts.leaf_kind)}, *style);
+      return painter_->paint(buffers, {strokes, tones, mark_of(parts.leaf_kind)}, style.keys());
     }
     case Look::phong:
       break;
@@ -154,17 +154,18 @@ Rendering Artist::draw(const Subject& subject, const PictureOptions& options,
   const Subject::Parts& parts = subject.parts();
   Rendering rendering;
   const double rays = share_of_rays(options.look);
+  const auto tell = [&](std::string_view stage, double done) {
+    if (progress) progress({.stage = stage, .done = done});
+  };
   const auto start = [&](std::string_view stage, double done) {
     watch.start(stage);
-    if (progress) progress(stage, done);
+    tell(stage, done);
   };
   start("rays", 0);
   const render::Camera camera = camera_of(parts, options);
-  const auto buffers = std::make_shared<render::Buffers>(
+  const auto buffers = std::make_shared<Rendering::Buffers>(Rendering::Buffers{
       render::draw_buffers(parts.targets, parts.surroundings(), camera, options.width,
-                           options.height, {}, [&](double done) {
-                             if (progress) progress("rays", rays * done);
-                           }));
+                           options.height, {}, [&](double done) { tell("rays", rays * done); })});
   colour_foliage(parts, *buffers);
   start("paint", rays);
   rendering.picture = shade(parts, *buffers, camera, options);

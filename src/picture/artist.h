@@ -5,10 +5,13 @@
 #include <vector>
 
 #include "leafhull/render.h"
+#include "render/buffers.h"
 #include "render/camera.h"
 #include "watercolour/paint.h"
 
 namespace leafhull {
+
+struct Rendering::Buffers : render::Buffers {};
 
 /// Draws pictures one after the other and keeps the data that they share.
 class Artist {

@@ -10,6 +10,7 @@
 
 #include "leafhull/error.h"
 #include "leafhull/render.h"
+#include "output/transaction.h"
 #include "picture/artist.h"
 #include "picture/check_picture.h"
 #include "picture/parts.h"
@@ -108,28 +109,32 @@ void check_figure17(const PictureOptions& picture, const DeviceInfo* device) {
   check_memory(painted, device, kPlateBytes);
 }
 
-Picture figure17(const std::shared_ptr<const TreeModel>& tree, const LeafSet& leaves,
-                 const Options& options, Plate plate, Surfacing surfacing,
-                 const PictureOptions& asked, Device& device, const Progress& progress) {
-  check_figure17(asked, &device.info());
+void write_figure17(const std::shared_ptr<const TreeModel>& tree, const LeafSet& leaves,
+                    const Options& options, Surfacing surfacing, const PicturePlan& plan,
+                    Device& device, const Progress& progress) {
+  if (!plan.plate || plan.files.png.empty()) {
+    throw Error(ErrorCode::usage, "no plate is planned", "Ask for one with its .png file.");
+  }
+  const Plate plate = *plan.plate;
+  check_figure17(plan.picture, &device.info());
   const Frame frame = frame_of_rows(*tree, leaves, plate, options);
-  PictureOptions picture = asked;
+  PictureOptions picture = plan.picture;
   Artist artist(device);
   std::vector<LabelledPicture> rows;
   for (const Row& row : kRows) {
     const auto tell = [&](std::string_view stage, double share) {
-      const double done = (static_cast<double>(rows.size()) + share) / kRows.size();
-      if (progress) progress(std::string(name(row.style(plate))) + ": " + std::string(stage), done);
+      if (!progress) return;
+      const std::string of_row = std::string(name(row.style(plate))) + ": " + std::string(stage);
+      progress(
+          {.stage = of_row, .done = (static_cast<double>(rows.size()) + share) / kRows.size()});
     };
     // Each row consists of a surface and two pictures of it.
     const auto part = [&](int before) {
-      return [&tell, before](std::string_view stage, double share) {
-        tell(stage, (before + share) / 3);
-      };
+      return [&tell, before](const Advance& now) { tell(now.stage, (before + now.done) / 3); };
     };
     const Subject subject = tree_subject(
         tree, leaves, options_of(row, plate, options), surfacing, device,
-        [&](std::string_view stage, double) { tell(stage, 0); }, frame);
+        [&](const Advance& now) { tell(now.stage, 0); }, frame);
     picture.look = Look::phong;
     Picture phong = artist.draw(subject, picture, part(1)).picture;
     picture.look = Look::watercolour;
@@ -137,7 +142,8 @@ Picture figure17(const std::shared_ptr<const TreeModel>& tree, const LeafSet& le
     const std::array looks{std::move(phong), std::move(watercolour)};
     rows.push_back({side_by_side(looks), {row.caption, parameters(subject.report())}});
   }
-  return contact_sheet("", rows, 1);
+  const std::vector<std::uint8_t> png = encode_png(contact_sheet("", rows, 1));
+  write_file(plan.files.png.front(), {reinterpret_cast<const char*>(png.data()), png.size()});
 }
 
 }  // namespace leafhull

@@ -74,7 +74,7 @@ FilePlan checked_files(const PictureFiles& files, const fs::path& input, std::si
                 "cannot write " + plan.films.front().string() + ": ffmpeg is missing",
                 "Install ffmpeg on the PATH, or name a .png file for the frames.");
   }
-  Destinations destinations(input);
+  Destinations destinations({input});
   for (const auto* pictures : {&plan.png, &plan.exr}) {
     for (const fs::path& file : *pictures) {
       if (files.frames == 0) destinations.add(file);

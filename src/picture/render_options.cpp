@@ -47,9 +47,9 @@ std::variant<Viewpoint, View> camera_of(const std::string& text, const ReadOptio
 /// A style by its name, else from a file.
 WatercolourStyle style_of(const std::string& text, std::optional<double> detail) {
   const auto valid = watercolour_styles();
-  if (text.empty()) return read_watercolour_style(std::string(valid.front()), detail);
+  if (text.empty()) return WatercolourStyle(std::string(valid.front()), detail);
   if (!looks_like_file(text)) choice("--watercolour-style", text, valid);
-  return read_watercolour_style(text, detail);
+  return WatercolourStyle(text, detail);
 }
 
 void check_plate(const RenderOptions& options, const std::filesystem::path& subject) {

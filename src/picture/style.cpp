@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "watercolour/style.h"
+#include "picture/style.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -9,7 +9,6 @@
 #include <system_error>
 
 #include "leafhull/error.h"
-#include "leafhull/render.h"
 #include "text/file_name.h"
 
 namespace leafhull {
@@ -39,15 +38,14 @@ std::span<const std::string_view> watercolour_styles() { return watercolour::sty
 
 std::string watercolour_style_table() { return watercolour::style_table(); }
 
-WatercolourStyle read_watercolour_style(const std::string& name_or_file,
-                                        std::optional<double> detail) {
+WatercolourStyle::WatercolourStyle(const std::string& name_or_file, std::optional<double> detail) {
   const auto shipped = watercolour::style_names();
   const bool is_name = std::ranges::find(shipped, name_or_file) != shipped.end();
   watercolour::Style style = !is_name && looks_like_file(name_or_file)
                                  ? watercolour::parse_style(read_text(name_or_file), name_or_file)
                                  : watercolour::shipped_style(name_or_file);
   if (detail) style.detail = static_cast<float>(*detail);
-  return std::make_shared<const watercolour::Style>(style);
+  keys_ = std::make_shared<const Keys>(Keys{style});
 }
 
 }  // namespace leafhull

@@ -220,7 +220,7 @@ Subject field_subject(const std::filesystem::path& file, std::optional<double> t
                       Surfacing surfacing, Device& device, const Progress& progress) {
   const ThreadLimit limit(device.threads());
   const auto parts = std::make_shared<Parts>();
-  if (progress) progress("read", 0);
+  if (progress) progress({.stage = "read"});
   auto [read, origin] = read_field(file, threshold);
   const auto field = std::make_shared<const Field>(std::move(read));
   parts->report.threshold = field->threshold();
@@ -233,7 +233,7 @@ Subject field_subject(const std::filesystem::path& file, std::optional<double> t
     parts->density.emplace(std::make_shared<const DirectSurface>(field, device), parts->placement,
                            render::foliage_colour(std::nullopt));
   } else {
-    if (progress) progress("polygonise", 0);
+    if (progress) progress({.stage = "polygonise"});
     parts->mesh = lattice_mesh(polygonise(*field, 0), field->lattice());
     surfaces.push_back(render::make_surface(parts->embree.get(), parts->mesh, parts->placement));
   }

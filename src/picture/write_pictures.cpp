@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "leafhull/error.h"
-#include "leafhull/output.h"
 #include "leafhull/render.h"
+#include "output/transaction.h"
 #include "picture/artist.h"
 #include "picture/check_picture.h"
 #include "picture/files.h"
@@ -117,8 +117,9 @@ Rendering draw_row(Artist& artist, std::span<const Subject> subjects, const Pict
   std::vector<Picture> pictures;
   for (const Subject& subject : subjects) {
     const auto before = static_cast<double>(pictures.size());
-    Rendering one = artist.draw(subject, options, [&](std::string_view stage, double share) {
-      progress(stage, (before + share) / static_cast<double>(subjects.size()));
+    Rendering one = artist.draw(subject, options, [&](const Advance& now) {
+      const double done = (before + now.done) / static_cast<double>(subjects.size());
+      progress({.stage = now.stage, .done = done});
     });
     pictures.push_back(std::move(one.picture));
     row.blank = row.blank && one.blank;
@@ -144,16 +145,24 @@ PictureSummary write_pictures(std::span<const Subject> subjects, const PicturePl
   const int pictures = std::max(files.frames, 1);
   options.turntable = files.frames > 0;
   const Progress untold;
+  // A frame counts once it is drawn; its share is not exact.
+  const auto tell = [&](std::string_view stage, double drawn) {
+    if (!progress) return;
+    const auto frames = static_cast<std::size_t>(files.frames);
+    const auto finished = static_cast<std::size_t>(drawn + 1e-6);
+    progress({.stage = stage,
+              .done = drawn / pictures,
+              .finished = frames > 0 ? finished : 0,
+              .all = frames});
+  };
   for (int i = 0; i < pictures; ++i) {
-    const auto tell = [&](std::string_view stage, double share) {
-      if (progress) progress(stage, (i + share) / pictures);
-    };
     options.turn = static_cast<double>(i) / pictures;
-    const Rendering rendering = draw_row(artist, subjects, options, tell);
+    const Rendering rendering = draw_row(
+        artist, subjects, options, [&](const Advance& now) { tell(now.stage, i + now.done); });
     summary.blank += rendering.blank;
     add_times(summary.seconds, rendering.seconds);
 
-    tell("write", 1);
+    tell("write", i + 1);
     Stopwatch watch(untold);
     watch.start("write");
     const auto name = [&](const fs::path& file) {
@@ -171,7 +180,7 @@ PictureSummary write_pictures(std::span<const Subject> subjects, const PicturePl
     add_times(summary.seconds, watch.finish());
   }
   const bool with_films = films.finish();
-  if (progress) progress("write", 1);
+  tell("write", pictures);
   if (files.frames > 0) warn_of_older_frames(files, files.frames, summary.warnings);
   if (summary.blank > 0) {
     summary.warnings.push_back(pictures == 1

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "leafhull/series.h"
+#include "pipeline/series.h"
 
 #include <algorithm>
 #include <string>

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "leafhull/progress.h"
 #include "leafhull/shape.h"
 
 namespace leafhull {
@@ -27,7 +28,7 @@ class Stopwatch {
 
   /// Tells how far the running stage is, 0 to 1.
   void advance(double done) const {
-    if (progress_) progress_(stage_, done);
+    if (progress_) progress_({.stage = stage_, .done = done});
   }
 
   /// Ends the running stage. Returns the times since the last call by stage, the total last.

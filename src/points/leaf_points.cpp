@@ -141,7 +141,7 @@ LeafPoints area_points(const LeafSet& leaves, double spacing, double radius_max)
     throw Error(ErrorCode::usage, "these leaves have vertices but no area",
                 "Take them from find_leaves, or give --points vertices.");
   }
-  const LeafSheets& sheets = *leaves.sheets;
+  const LeafSet::Sheets& sheets = *leaves.sheets;
   if (sheets.sheets.empty()) {
     throw Error(ErrorCode::input,
                 "no leaf has a visible area: their textures are transparent there",

@@ -105,7 +105,7 @@ LeafPoint placed(const FlatPart& part, const LeafSheet& sheet, double spacing) {
 
 }  // namespace
 
-std::vector<LeafPoint> place_parts(const LeafSheets& sheets, double spacing,
+std::vector<LeafPoint> place_parts(const LeafSet::Sheets& sheets, double spacing,
                                    const std::function<bool(const LeafSheet&)>& is_out) {
   double all = 0;
   std::map<Cut, std::vector<FlatPart>> cuts;

@@ -13,7 +13,7 @@ namespace leafhull {
 /// others are cut, once for all leaves that show the same chart in the same proportions. `is_out`:
 /// leaves that are left out.
 /// @throws Error usage: more than ten million parts.
-std::vector<LeafPoint> place_parts(const LeafSheets& sheets, double spacing,
+std::vector<LeafPoint> place_parts(const LeafSet::Sheets& sheets, double spacing,
                                    const std::function<bool(const LeafSheet&)>& is_out);
 
 }  // namespace leafhull

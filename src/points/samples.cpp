@@ -26,7 +26,7 @@ struct Taken {
 };
 
 /// The leaves whose middle lies in `crown`, or all where none does.
-std::vector<std::size_t> leaves_in(const LeafSheets& sheets, const Box& crown) {
+std::vector<std::size_t> leaves_in(const LeafSet::Sheets& sheets, const Box& crown) {
   std::vector<std::size_t> within, all;
   for (std::size_t i = 0; i < sheets.sheets.size(); ++i) {
     const LeafSheet& sheet = sheets.sheets[i];
@@ -36,7 +36,7 @@ std::vector<std::size_t> leaves_in(const LeafSheets& sheets, const Box& crown) {
   return within.empty() ? all : within;
 }
 
-std::vector<Taken> leaves_with_samples(const LeafSheets& sheets,
+std::vector<Taken> leaves_with_samples(const LeafSet::Sheets& sheets,
                                        std::span<const std::size_t> leaves, double step) {
   std::vector<Taken> taken;
   double before = 0;
@@ -57,7 +57,7 @@ std::vector<Taken> leaves_with_samples(const LeafSheets& sheets,
 
 }  // namespace
 
-Samples samples_of(const LeafSheets& sheets, const Box& crown) {
+Samples samples_of(const LeafSet::Sheets& sheets, const Box& crown) {
   const std::vector<std::size_t> leaves = leaves_in(sheets, crown);
   double area = 0;
   for (const std::size_t i : leaves) area += sheets.sheets[i].area;

@@ -16,6 +16,6 @@ struct Samples {
 
 /// Places on the visible area of the leaves in `crown`, each standing for an equal share of it:
 /// strays are not to move T.
-Samples samples_of(const LeafSheets& sheets, const Box& crown);
+Samples samples_of(const LeafSet::Sheets& sheets, const Box& crown);
 
 }  // namespace leafhull

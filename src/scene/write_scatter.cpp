@@ -189,7 +189,7 @@ std::span<const ScatterOptionRow> scatter_table() {
 
 void write_scatter(const ScatterOptions& options, const fs::path& file) {
   check(options);
-  for (const fs::path& tree : options.trees) check_output(file, ".csv", tree);
+  const OutputFile scatter(file, ".csv", options.trees);
   std::vector<std::string> names;
   for (const fs::path& tree : options.trees) names.push_back(model_name(tree, file));
   const std::optional<HeightField> ground =
@@ -215,7 +215,7 @@ void write_scatter(const ScatterOptions& options, const fs::path& file) {
                 std::clamp(rounded(scale, scale_decimals), options.scale_low, options.scale_high)) +
             '\n';
   }
-  write_file(file, text);
+  scatter.write(text);
 }
 
 }  // namespace leafhull

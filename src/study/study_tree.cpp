@@ -89,7 +89,8 @@ class Steps {
   }
   void advance(int work) {
     done_ += work;
-    if (progress_) progress_(stage_, static_cast<double>(done_) / work_);
+    if (!progress_) return;
+    progress_({.stage = stage_, .done = static_cast<double>(done_) / work_, .is_even = true});
   }
 
  private:

@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "leafhull/error.h"
-#include "leafhull/series.h"
 #include "output/destination.h"
 #include "output/report.h"
+#include "pipeline/series.h"
 #include "runs/read_file.h"
 #include "runs/run_folder.h"
 #include "sweep/journal.h"
@@ -140,10 +140,18 @@ void add_times(std::vector<StageTime>& sums, const std::vector<StageTime>& times
   }
 }
 
+Advance counted(std::string_view stage, std::size_t finished, const SweepPlan& plan) {
+  const std::size_t all = plan.combinations.size();
+  return {.stage = stage,
+          .done = static_cast<double>(finished) / static_cast<double>(all),
+          .finished = finished,
+          .all = all};
+}
+
 /// Extracts what remains; each combination's picture is written before its line of the journal.
 std::vector<StageTime> extract_remaining(const LeafSet& leaves, const SweepPlan& plan,
                                          Device& device, Files& files, Journal& journal,
-                                         const SweepProgress& progress) {
+                                         const Progress& progress) {
   using Clock = std::chrono::steady_clock;
   const std::vector<std::size_t> todo = remaining(files, plan, journal);
   std::vector<Options> options;
@@ -152,7 +160,7 @@ std::vector<StageTime> extract_remaining(const LeafSet& leaves, const SweepPlan&
   std::vector<StageTime> sums;
   std::size_t done = plan.combinations.size() - todo.size();
   const auto tell = [&](std::string_view stage) {
-    if (progress) progress(stage, done, plan.combinations.size());
+    if (progress) progress(counted(stage, done, plan));
   };
   tell("start");
   const SeriesVisitor visit = [&](std::size_t index, SeriesEntry&& entry) {
@@ -169,8 +177,7 @@ std::vector<StageTime> extract_remaining(const LeafSet& leaves, const SweepPlan&
     tell("picture");
     return true;
   };
-  extract_series(leaves, options, device, visit,
-                 [&](std::string_view stage, double) { tell(stage); });
+  extract_series(leaves, options, device, visit, [&](const Advance& now) { tell(now.stage); });
   return sums;
 }
 
@@ -212,8 +219,8 @@ void write_sheets(Files& files, const SweepPlan& plan, const Journal& journal,
 
 SweepSummary run_sweep(const LeafSet& leaves, const SweepPlan& plan, Device& device,
                        const SweepFolder& folder, const RunDescription& run,
-                       const SweepProgress& progress) {
-  Files files(folder.path);
+                       const Progress& progress) {
+  Files files(folder.folder.path());
   const Json header = header_of(identity(leaves, plan, device.info()), files, plan);
   check_series(leaves, plan.combinations);
   files.make_folder(files.folder());
@@ -244,7 +251,7 @@ SweepSummary run_sweep(const LeafSet& leaves, const SweepPlan& plan, Device& dev
     if (!failure.empty() && summary.failed++ == 0) summary.warnings.push_back(failure);
   }
 
-  if (progress) progress("write", summary.combinations, summary.combinations);
+  if (progress) progress(counted("write", summary.combinations, plan));
   write_tables(files, plan, journal, run);
   const std::string tree = fs::path(run.input).filename().string();
   write_sheets(files, plan, journal, tree);

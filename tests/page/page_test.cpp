@@ -20,7 +20,7 @@ using ::testing::IsSubstring;
 
 std::string page_of(const Study& study) {
   const TemporaryFolder folder;
-  write_study(study, folder.path());
+  write_study(study, OutputFolder(folder.path()));
   return read_file(folder / "report.html");
 }
 
@@ -165,7 +165,7 @@ TEST(Page, SaysThatPlotsNeedGnuplot) {
   const NoPrograms nothing;
   ASSERT_FALSE(can_draw_charts());
   const TemporaryFolder folder;
-  write_study(sample_study(), folder.path());
+  write_study(sample_study(), OutputFolder(folder.path()));
   EXPECT_EQ(folder.names(), (std::set<std::string>{"report.html", "study.json"}));
   const std::string page = read_file(folder / "report.html");
   EXPECT_FALSE(holds(page, "image/svg+xml"));
@@ -177,7 +177,7 @@ TEST(Page, SaysThatPlotsNeedGnuplot) {
 TEST(Page, HoldsAPlotOfEveryFigureAndOfAllReadingsAndOfTheBand) {
   if (!can_draw_charts()) GTEST_SKIP() << "gnuplot is missing";
   const TemporaryFolder folder;
-  write_study(sample_study(), folder.path());
+  write_study(sample_study(), OutputFolder(folder.path()));
   EXPECT_EQ(folder.names(), (std::set<std::string>{"report.html", "study.json"}));
   const std::string page = read_file(folder / "report.html");
   const std::regex plot("<img src=\"data:image/svg\\+xml;base64,");
@@ -187,7 +187,7 @@ TEST(Page, HoldsAPlotOfEveryFigureAndOfAllReadingsAndOfTheBand) {
 
 TEST(WriteStudy, MakesTheFolder) {
   const TemporaryFolder folder;
-  write_study(sample_study(), folder / "new");
+  write_study(sample_study(), OutputFolder(folder / "new"));
   EXPECT_TRUE(std::filesystem::exists(folder / "new/report.html"));
 }
 
@@ -195,7 +195,7 @@ TEST(WriteStudy, WritesAllOrNothing) {
   const TemporaryFolder folder;
   std::filesystem::create_directory(folder / "study.json");
   try {
-    write_study(sample_study(), folder.path());
+    write_study(sample_study(), OutputFolder(folder.path()));
     FAIL() << "a folder was taken for a file";
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ErrorCode::output);
@@ -206,7 +206,7 @@ TEST(WriteStudy, WritesAllOrNothing) {
 
 TEST(StudyJson, HoldsTheNumbers) {
   const TemporaryFolder folder;
-  write_study(sample_study(), folder.path());
+  write_study(sample_study(), OutputFolder(folder.path()));
   const json study = json::parse(read_file(folder / "study.json"));
   EXPECT_EQ(study["schema"], "leafhull-study/1");
   EXPECT_EQ(study["command"], "leafhull study 'a tree.glb' -o <it>");
@@ -244,7 +244,7 @@ TEST(StudyJson, HoldsNamesThatAreNoUtf8) {
   Study study = sample_study();
   study.trees.front().name = "\xff";
   const TemporaryFolder folder;
-  write_study(study, folder.path());
+  write_study(study, OutputFolder(folder.path()));
   EXPECT_EQ(json::parse(read_file(folder / "study.json"))["trees"][0]["name"], "\xef\xbf\xbd");
 }
 

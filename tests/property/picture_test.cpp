@@ -10,8 +10,8 @@
 #include <string>
 
 #include "leafhull/render.h"
+#include "picture/artist.h"
 #include "property/extractions.h"
-#include "render/buffers.h"
 
 namespace leafhull {
 namespace {
@@ -147,7 +147,7 @@ double change(const Rendering& a, const Rendering& b) {
 WatercolourStyle classic_with(const std::string& keys) {
   const auto file = std::filesystem::path(testing::TempDir()) / "leafhull-style.json";
   std::ofstream(file) << "{" << keys << "}";
-  WatercolourStyle style = read_watercolour_style(file.string());
+  WatercolourStyle style(file.string());
   std::filesystem::remove(file);
   return style;
 }

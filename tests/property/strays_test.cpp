@@ -11,9 +11,9 @@
 #include "leafhull/error.h"
 #include "leafhull/render.h"
 #include "leafhull/sweep.h"
+#include "picture/artist.h"
 #include "property/area_measures.h"
 #include "property/extractions.h"
-#include "render/buffers.h"
 #include "tiles/level.h"
 
 namespace leafhull {

@@ -52,8 +52,8 @@ void expect_same_metrics(const Metrics& a, const Metrics& b) {
 TEST(StudyTree, IsWhatSingleExtractionsAre) {
   const LeafSet leaves = ball(14000, 0.2F);
   std::vector<double> progress;
-  const TreeStudy tree = study_tree(
-      leaves, "ball", device(), [&](std::string_view, double done) { progress.push_back(done); });
+  const TreeStudy tree = study_tree(leaves, "ball", device(),
+                                    [&](const Advance& now) { progress.push_back(now.done); });
   EXPECT_EQ(tree.name, "ball");
   EXPECT_EQ(tree.leaf_vertices, leaves.vertices.size());
   EXPECT_TRUE(std::is_sorted(progress.begin(), progress.end()));

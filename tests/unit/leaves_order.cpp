@@ -166,7 +166,7 @@ TEST_P(LeafOrder, OnePrimitiveOrManyIsTheSame) {
   expect_equal(find_leaves(tree_of(parts), {}), find_leaves(tree_of({whole}), {}));
 }
 
-void expect_equal_sheets(const LeafSheets& a, const LeafSheets& b) {
+void expect_equal_sheets(const LeafSet::Sheets& a, const LeafSet::Sheets& b) {
   EXPECT_EQ(a.area, b.area);
   EXPECT_EQ(a.charts.size(), b.charts.size());
   ASSERT_EQ(a.sheets.size(), b.sheets.size());

@@ -86,7 +86,7 @@ std::string forest_refusal(const std::function<void(ForestOptions&)>& change) {
   ForestOptions options;
   change(options);
   try {
-    check_forest(options);
+    plan_forest(options, testing::TempDir());
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ErrorCode::usage);
     EXPECT_FALSE(error.remedy().empty());

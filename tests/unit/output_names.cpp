@@ -134,7 +134,7 @@ TEST_F(OutputNames, SaysThatAFolderOrFileIsReadOnly) {
 /// The error that a folder for results causes; empty if it is accepted.
 std::string complaint_of(const fs::path& folder) {
   try {
-    check_output_folder(folder);
+    EXPECT_EQ(OutputFolder(folder).path(), folder);
     return "";
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ErrorCode::output) << error.what();
@@ -152,6 +152,24 @@ TEST(OutputFolder, MayBeMissing) {
   std::ofstream(folder / "file") << "precious";
   EXPECT_NE(complaint_of(folder / "file").find("is a file"), std::string::npos);
   EXPECT_NE(complaint_of(folder / "file" / "new").find("file"), std::string::npos);
+}
+
+TEST(OutputFolder, HasFilesBeforeItIsMade) {
+  const TemporaryFolder folder;
+  const auto code_of = [&](const fs::path& within, const fs::path& file) {
+    try {
+      (void)OutputFolder(within).file(file, ".json", {folder / "tree.glb", folder / "tree.json"});
+      return ErrorCode{};
+    } catch (const Error& error) {
+      return error.code();
+    }
+  };
+  EXPECT_EQ(code_of(folder / "new", folder / "new" / "a.json"), ErrorCode{});
+  EXPECT_EQ(code_of(folder / "new", folder / "new" / "a.txt"), ErrorCode::usage);
+  EXPECT_EQ(code_of(folder / "new", folder / "new" / "newer" / "a.json"), ErrorCode::output);
+  EXPECT_EQ(code_of(folder / "new", folder / "other" / "a.json"), ErrorCode::output);
+  EXPECT_EQ(code_of(folder.path(), folder / "a.json"), ErrorCode{});
+  EXPECT_EQ(code_of(folder.path(), folder / "tree.json"), ErrorCode::usage) << "the second input";
 }
 
 }  // namespace

@@ -15,9 +15,9 @@
 #include "picture/check_picture.h"
 #include "picture/files.h"
 #include "picture/parts.h"
+#include "picture/style.h"
 #include "render/buffers.h"
 #include "temporary_folder.h"
-#include "watercolour/style.h"
 
 namespace leafhull::test {
 namespace {
@@ -139,14 +139,18 @@ TEST(Views, OfADensityAreInTheUnitsOfItsFile) {
 TEST(Drawing, TellsHowFarItIs) {
   const Subject subject = shape_subject(cube());
   std::vector<std::pair<std::string, double>> told;
-  const Progress progress = [&](std::string_view stage, double done) {
-    told.emplace_back(stage, done);
+  std::size_t finished = 0, all = 0;
+  const Progress progress = [&](const Advance& now) {
+    told.emplace_back(now.stage, now.done);
+    EXPECT_GE(now.finished, finished);
+    finished = now.finished, all = now.all;
   };
   draw(subject, facing_the_cube(640, 640), device(), progress);
   const auto by_share = [](const auto& a, const auto& b) { return a.second < b.second; };
   EXPECT_TRUE(std::is_sorted(told.begin(), told.end(), by_share));
   EXPECT_EQ(told.front(), std::pair(std::string("rays"), 0.0));
   EXPECT_EQ(told.back().first, "paint");
+  EXPECT_EQ(all, 0u) << "one picture is not counted";
   const auto within = std::count_if(told.begin(), told.end(), [](const auto& step) {
     return step.first == "rays" && step.second > 0 && step.second < 0.8;
   });
@@ -158,6 +162,8 @@ TEST(Drawing, TellsHowFarItIs) {
                  device(), progress);
   EXPECT_TRUE(std::is_sorted(told.begin(), told.end(), by_share));
   EXPECT_EQ(told.back(), std::pair(std::string("write"), 1.0));
+  EXPECT_EQ(finished, 3u);
+  EXPECT_EQ(all, 3u);
 }
 
 TEST(Drawing, RefusesNoSubjectAndTheBuffersOfTwo) {
@@ -398,9 +404,9 @@ TEST(PictureSizes, TheSheetOfFigure17MustFitAFile) {
 
 TEST(WatercolourStyles, TakeTheirDetailFromTheCall) {
   EXPECT_EQ(watercolour_styles().front(), "classic");
-  EXPECT_EQ(read_watercolour_style("wet", 0.25)->detail, 0.25f);
-  EXPECT_NE(read_watercolour_style("wet")->seed, 0u);
-  EXPECT_THROW(read_watercolour_style("wett"), Error);
+  EXPECT_EQ(WatercolourStyle("wet", 0.25).keys().detail, 0.25f);
+  EXPECT_NE(WatercolourStyle("wet").keys().seed, 0u);
+  EXPECT_THROW(WatercolourStyle("wett"), Error);
 }
 
 }  // namespace
