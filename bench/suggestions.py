@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Whether the nine shapes that `leafhull suggest` offers differ, tree by tree, and are what their
-commands give; ends with 1 where two neighbours are too close or one cannot be had.
+commands give; ends with 1 where two neighbours are too close or one is out of reach.
 
 bench/suggestions.py LEAFHULL TREE... [--leaves NAME=GLOB]...
 """

@@ -1,5 +1,5 @@
-# libwebp, of which Debian brings no CMake files: the target WebP::webp. Its version is that of the
-# decoder's interface.
+# libwebp, whose Debian package has no CMake files. Defines the target WebP::webp; its version is that
+# of the decoder's interface.
 find_path(WebP_INCLUDE_DIR webp/decode.h)
 find_library(WebP_LIBRARY webp)
 mark_as_advanced(WebP_INCLUDE_DIR WebP_LIBRARY)

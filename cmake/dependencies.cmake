@@ -1,9 +1,9 @@
-# Every third-party library, its least version and the Debian packages that bring it, in one place.
-# packages.txt says what each package is for; tools/check_files.py compares the two.
+# Every third-party library, its least version and the Debian packages that contain it. packages.txt
+# says what each package is for; tools/check_files.py compares the two.
 
 # leafhull_require(NAME VERSION PACKAGES [ARGS...]): find_package(NAME ARGS...) that checks the
-# version and says what to install. What the find modules print themselves is noise: the warning that
-# Debian's Imath lacks its Python library, for one, is not about anything that leafhull links.
+# version and says what to install. It hides what the find modules print, such as the warning that
+# Debian's Imath lacks its Python library, which leafhull does not use.
 macro(leafhull_require name version packages)
   set(CMAKE_MESSAGE_LOG_LEVEL WARNING)
   find_package(${name} QUIET ${ARGN})
@@ -33,7 +33,7 @@ list(APPEND CMAKE_MODULE_PATH ${CMAKE_CURRENT_LIST_DIR})
 leafhull_require(OpenCL 1.2 "ocl-icd-opencl-dev opencl-c-headers opencl-clhpp-headers")
 leafhull_require(TBB 2021.0 "libtbb-dev" CONFIG)
 
-# OpenVDB's module stops with a message of its own where these two are missing.
+# Without these two, OpenVDB's module stops with its own message.
 leafhull_require(Boost 1.74 "libboost-iostreams-dev" COMPONENTS iostreams)
 leafhull_require(ZLIB 1.2 "zlib1g-dev")
 find_path(LEAFHULL_OPENVDB_MODULE FindOpenVDB.cmake
@@ -46,7 +46,7 @@ if(LEAFHULL_OPENVDB_MODULE)
 endif()
 leafhull_require(OpenVDB 10.0 "libopenvdb-dev")
 
-# Whether its library holds its mesher compiled, which would take half a minute to compile here.
+# Checks whether OpenVDB's library contains its mesher; compiling it here would take half a minute.
 include(CheckCXXSourceCompiles)
 set(CMAKE_REQUIRED_LIBRARIES OpenVDB::openvdb TBB::tbb)
 check_cxx_source_compiles("
@@ -85,5 +85,5 @@ if(LEAFHULL_BUILD_BENCH)
   leafhull_require(CGAL 5.5 "libcgal-dev" CONFIG)
 endif()
 
-# Debian's libdraco exports another version of tinygltf's symbols: the linker must meet ours first.
+# Debian's libdraco exports another version of tinygltf's symbols, so the linker must meet ours first.
 target_link_libraries(TinyGLTF::TinyGLTF INTERFACE draco::draco)

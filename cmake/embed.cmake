@@ -9,7 +9,7 @@ function(leafhull_embed target symbol file)
     COMMAND ${CMAKE_COMMAND} -DSOURCE=${file} -DOUTPUT=${generated} -DSYMBOL=${symbol} -P ${script}
     DEPENDS ${file} ${ARGN} ${script}
     COMMENT "Embedding ${name}" VERBATIM)
-  # Each has an array named `bytes`.
+  # Each generated file has an array named `bytes`, so they cannot share a unity file.
   set_source_files_properties(${generated} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
   target_sources(${target} PRIVATE ${generated})
 endfunction()

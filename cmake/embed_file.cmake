@@ -12,7 +12,7 @@ if(SOURCE MATCHES "\\.cl$")
 else()
   file(READ ${SOURCE} hex HEX)
 endif()
-# Bytes rather than a literal: no delimiter to clash with, no limit on length.
+# An array of bytes, unlike a literal, has no delimiter that may clash and no limit on its length.
 string(REGEX REPLACE "(..)" "'\\\\x\\1'," bytes "${hex}")
 get_filename_component(out_folder ${OUTPUT} DIRECTORY)
 file(MAKE_DIRECTORY ${out_folder})

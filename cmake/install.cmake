@@ -1,5 +1,5 @@
-# What `cmake --install` puts where. A consumer sees the public headers and one library; it needs no
-# third-party package of its own.
+# What `cmake --install` installs, and where. A consumer sees the public headers and one library and
+# needs no third-party packages.
 set(leafhull_cmake_dir ${CMAKE_INSTALL_LIBDIR}/cmake/leafhull)
 
 set(RENDER_HEADERS picture render)
@@ -28,17 +28,17 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/leafhullConfigVersion.cma
 install(FILES cmake/leafhullConfig.cmake ${PROJECT_BINARY_DIR}/leafhullConfigVersion.cmake
         DESTINATION ${leafhull_cmake_dir})
 
-# The manual and the shells' completion, as the command itself prints them; a command that is built for
-# another machine, or with sanitizers, is not run here.
+# The manual and the shell completions, as the command prints them. A command that is built for another
+# machine or with sanitizers is not run here.
 if(NOT CMAKE_CROSSCOMPILING AND NOT "${CMAKE_CXX_FLAGS} ${CMAKE_CXX_FLAGS_RELWITHDEBINFO}" MATCHES "-fsanitize")
-  # leafhull_printed(FILE FOLDER WORD...): what `leafhull WORD...` prints, installed as FOLDER/FILE.
+  # leafhull_printed(FILE FOLDER WORD...): installs the output of `leafhull WORD...` as FOLDER/FILE.
   function(leafhull_printed file folder)
     set(output ${PROJECT_BINARY_DIR}/printed/${file})
     add_custom_command(OUTPUT ${output} DEPENDS leafhull_command VERBATIM
       COMMAND ${CMAKE_COMMAND} -E make_directory ${PROJECT_BINARY_DIR}/printed
       COMMAND leafhull_command ${ARGN} > ${output})
     add_custom_target(print_${file} ALL DEPENDS ${output})
-    install(FILES ${output} DESTINATION ${folder} OPTIONAL)  # a build of single targets lacks it
+    install(FILES ${output} DESTINATION ${folder} OPTIONAL)  # missing after a build of single targets
   endfunction()
   leafhull_printed(leafhull.1 ${CMAKE_INSTALL_MANDIR}/man1 help-manual)
   leafhull_printed(leafhull ${CMAKE_INSTALL_DATADIR}/bash-completion/completions completion bash)

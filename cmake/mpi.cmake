@@ -1,4 +1,4 @@
-# The ranks of forests: optional, through MPI's C interface. Its version is that of the standard.
+# MPI's C interface, which the ranks of a forest use; optional. The version is that of the standard.
 set(LEAFHULL_MPI AUTO CACHE STRING "Forests on the ranks of mpirun: AUTO (where MPI is found), ON or OFF")
 set_property(CACHE LEAFHULL_MPI PROPERTY STRINGS AUTO ON OFF)
 if(LEAFHULL_MPI)

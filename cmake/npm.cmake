@@ -1,10 +1,10 @@
-# Packages of npm, for what Debian does not have. Where they cannot be had, because node or npm or their
-# registry is out of reach, the build goes on without them, says so, and tries again the next time.
+# npm packages, for what Debian does not have. If node, npm or the registry is missing, the build says
+# so and continues without them; the next build tries again.
 find_program(LEAFHULL_NODE NAMES node nodejs)
 find_program(LEAFHULL_NPM npm)
 mark_as_advanced(LEAFHULL_NODE LEAFHULL_NPM)
 
-# What keeps node or npm from being used; empty where nothing does.
+# Why node or npm cannot be used; empty if they can.
 set(LEAFHULL_NO_NPM "")
 set(node_version "")
 if(LEAFHULL_NODE)
@@ -15,7 +15,7 @@ endif()
 if(NOT node_version)
   set(LEAFHULL_NO_NPM "there is no node (on Debian: apt-get install nodejs npm)")
 elseif(node_version VERSION_LESS 18)
-  set(LEAFHULL_NO_NPM "node is ${node_version}, needed is 18 or newer")
+  set(LEAFHULL_NO_NPM "node is ${node_version}, but 18 or newer is needed")
 elseif(NOT LEAFHULL_NPM)
   set(LEAFHULL_NO_NPM "there is no npm (on Debian: apt-get install npm)")
 else()
@@ -23,8 +23,8 @@ else()
 endif()
 
 # leafhull_npm_packages(FOLDER LISTS WITHOUT [PROBE]): installs the packages of LISTS/package-lock.json in
-# FOLDER; see npm_packages.cmake. Where that fails FOLDER/node_modules/.package-lock.json stays missing,
-# so that the next build runs this again, and what depends on that file is made all the same.
+# FOLDER; see npm_packages.cmake. If that fails, FOLDER/node_modules/.package-lock.json stays missing, so
+# the next build runs this again; what depends on that file is built all the same.
 function(leafhull_npm_packages folder lists without)
   set(packages ${lists}/package.json ${lists}/package-lock.json)
   set(script ${PROJECT_SOURCE_DIR}/cmake/npm_packages.cmake)

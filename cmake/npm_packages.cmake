@@ -1,12 +1,12 @@
 # cmake -P: installs the packages of LISTS/package-lock.json in FOLDER with NPM, unless NO_NPM says why
-# not. PROBE is a script that NODE must then be able to run there. Where it cannot be done, FOLDER has no
-# node_modules, FOLDER/without.txt says why and what is missing now (WITHOUT), and the build goes on.
-file(REMOVE_RECURSE ${FOLDER}/node_modules ${FOLDER}/without.txt)  # half of them must not pass for all
+# not. NODE must then be able to run the script PROBE there. If any of this fails, FOLDER has no
+# node_modules, FOLDER/without.txt says why and what is missing (WITHOUT), and the build continues.
+file(REMOVE_RECURSE ${FOLDER}/node_modules ${FOLDER}/without.txt)  # a partial set must not look complete
 set(why "${NO_NPM}")
 if(NOT why)
   file(COPY ${LISTS}/package.json ${LISTS}/package-lock.json DESTINATION ${FOLDER})
-  # By itself npm waits for minutes before it gives up, for some packages after others. Whether it must do
-  # with its cache is told by one question, about a package that has few versions.
+  # By default npm waits minutes before it gives up, one package after another. One query about a package
+  # with few versions shows whether the registry can be reached or npm must use its cache.
   execute_process(COMMAND ${NPM} view gltf-validator version --fetch-retries=0 --fetch-timeout=20000
                   WORKING_DIRECTORY ${FOLDER} RESULT_VARIABLE failed OUTPUT_QUIET ERROR_QUIET)
   set(offline "")
@@ -21,7 +21,7 @@ if(NOT why)
   if(failed)
     set(why "npm could not fetch its packages (${failed})")
   elseif(PROBE)
-    # npm takes it for no failure if it cannot fetch what is made for this kind of machine alone.
+    # npm does not fail if it cannot fetch a package that is specific to this kind of machine.
     execute_process(COMMAND ${NODE} -e "${PROBE}" WORKING_DIRECTORY ${FOLDER} RESULT_VARIABLE failed)
     if(failed)
       set(why "what npm fetched does not run here")

@@ -1,18 +1,18 @@
-# ufbx, which reads FBX: one C source, not in Debian. Its crate brings it along, so cargo fetches it, at a
-# pinned version and checksum; cargo builds nothing. Where it cannot be had the build goes on without, says
-# so, and FBX is refused; the next configuration tries again. LEAFHULL_UFBX names a folder with ufbx.c and
-# ufbx.h to be used instead.
+# ufbx, which reads FBX: one C source, not in Debian. Its crate contains it, so cargo fetches the crate at
+# a pinned version and checksum but builds nothing. If that fails, the build says so and continues; the
+# command then refuses FBX, and the next configuration tries again. LEAFHULL_UFBX names a folder whose
+# ufbx.c and ufbx.h are used instead.
 set(ufbx_version 0.23.1)
 set(ufbx_crate 0.11.5)
 set(ufbx_c_sha256 4a956c26a708e40d82ecb0aeaee54da709d5ba7c144c9642174970059bda7e1d)
 set(ufbx_h_sha256 f787be529af577efc04f3e3e735844a08556718dbb613d1211c2b313d72895dc)
-set(LEAFHULL_FBX AUTO CACHE STRING "FBX files: AUTO (where ufbx can be had), ON or OFF")
+set(LEAFHULL_FBX AUTO CACHE STRING "FBX files: AUTO (if ufbx can be fetched), ON or OFF")
 set_property(CACHE LEAFHULL_FBX PROPERTY STRINGS AUTO ON OFF)
 set(LEAFHULL_UFBX "" CACHE PATH "A folder with ufbx.c and ufbx.h; empty: cargo fetches them")
 find_program(LEAFHULL_CARGO cargo)
 mark_as_advanced(LEAFHULL_CARGO)
 
-# Puts ufbx.c and ufbx.h into `folder`; `why` says what keeps it from that.
+# Puts ufbx.c and ufbx.h into `folder`; `why` says what went wrong.
 function(leafhull_fetch_ufbx folder why)
   set(${why} "" PARENT_SCOPE)
   if(NOT LEAFHULL_CARGO)
@@ -40,7 +40,7 @@ function(leafhull_fetch_ufbx folder why)
   file(REMOVE_RECURSE ${work})
 endfunction()
 
-# What is wrong with the sources in `folder`.
+# Sets `why` to what is wrong with the sources in `folder`.
 function(leafhull_check_ufbx folder why)
   set(${why} "" PARENT_SCOPE)
   foreach(kind c h)

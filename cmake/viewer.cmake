@@ -1,6 +1,6 @@
 # The script that turns the shapes of a report: web/, bundled at build time by esbuild, which npm
-# brings with three.js. LEAFHULL_VIEWER is the bundle; it is empty without LEAFHULL_BUILD_VIEWER, and
-# where npm's packages cannot be had.
+# fetches with three.js. LEAFHULL_VIEWER is the bundle; it is empty without LEAFHULL_BUILD_VIEWER or
+# without the npm packages.
 set(LEAFHULL_WEB ${PROJECT_BINARY_DIR}/web)
 set(LEAFHULL_VIEWER ${LEAFHULL_WEB}/viewer.bundle.js)
 file(MAKE_DIRECTORY ${LEAFHULL_WEB})

@@ -1,7 +1,8 @@
-# Who may know what. CMake builds the rooms of src from this table, tools/rooms.py holds the sources to
-# it and writes the column "knows" of ARCHITECTURE.md. Each call is of one form, as Python reads them too.
+# Who may use what. CMake builds the rooms of src from this table, tools/check_includes.py holds the
+# sources to it, and tools/rooms.py writes the column "knows" of ARCHITECTURE.md from it. All calls have
+# the same form because Python reads them too.
 
-# leafhull_library(NAME "ITS NAME" TARGETS what is linked; HEADERS how the paths of its headers begin)
+# leafhull_library(NAME "ITS NAME" TARGETS what to link; HEADERS the first parts of its headers' paths)
 leafhull_library(cgal "CGAL" TARGETS HEADERS CGAL/)
 leafhull_library(cli11 "CLI11" TARGETS CLI11::CLI11 HEADERS CLI/)
 leafhull_library(draco "draco" TARGETS draco::draco HEADERS draco/)
@@ -23,22 +24,22 @@ leafhull_library(tinyobjloader "tinyobjloader" TARGETS tinyobjloader::tinyobjloa
 leafhull_library(ufbx "ufbx (optional)" TARGETS HEADERS ufbx.h)
 leafhull_library(webp "WebP" TARGETS WebP::webp HEADERS webp/)
 
-# leafhull_room(NAME PART; ROOMS that it may include; LIBRARIES that it alone may know). A part other than CORE is
-# left out of the build where LEAFHULL_<PART> is off; RUNS is of both STUDY and FOREST. OpenVDB's rooms come first: the loader looks its
-# 69,000 symbols up in the order of the libraries.
-leafhull_room(density CORE ROOMS LIBRARIES openvdb tbb)
-leafhull_room(surface CORE ROOMS density LIBRARIES openvdb tbb)
+# leafhull_room(NAME PART; ROOMS that it may include; LIBRARIES that it may use). A part other than CORE
+# is left out of the build if LEAFHULL_<PART> is off; RUNS belongs to both STUDY and FOREST. OpenVDB's
+# rooms come first, because the loader looks up its 69,000 symbols in the order of the libraries.
+leafhull_room(density CORE ROOMS text LIBRARIES openvdb tbb)
+leafhull_room(surface CORE ROOMS density text LIBRARIES openvdb tbb)
 leafhull_room(input CORE ROOMS colour text
      LIBRARIES tinygltf ufbx tinyobjloader stb webp json draco meshoptimizer tbb)
 leafhull_room(colour CORE ROOMS LIBRARIES)
-leafhull_room(leaves CORE ROOMS LIBRARIES eigen tbb)
+leafhull_room(leaves CORE ROOMS text LIBRARIES eigen tbb)
 leafhull_room(foliage CORE ROOMS colour leaves LIBRARIES eigen tbb)
-leafhull_room(points CORE ROOMS leaves LIBRARIES eigen tbb)
+leafhull_room(points CORE ROOMS leaves text LIBRARIES eigen tbb)
 leafhull_room(device CORE ROOMS density LIBRARIES opencl)
 leafhull_room(output CORE ROOMS colour surface text LIBRARIES tinygltf openvdb json)
-leafhull_room(pipeline CORE ROOMS density device points surface LIBRARIES tbb)
+leafhull_room(pipeline CORE ROOMS density device points surface text LIBRARIES tbb)
 leafhull_room(text CORE ROOMS LIBRARIES)
-leafhull_room(options CORE ROOMS density LIBRARIES)
+leafhull_room(options CORE ROOMS density text LIBRARIES)
 leafhull_room(process RENDER ROOMS LIBRARIES)
 leafhull_room(chart STUDY ROOMS process text LIBRARIES)
 leafhull_room(render RENDER ROOMS colour text LIBRARIES embree openexr stb tbb)
@@ -47,12 +48,12 @@ leafhull_room(picture RENDER
      ROOMS foliage input output pipeline process render surface text watercolour
      LIBRARIES json tbb)
 leafhull_room(runs RUNS ROOMS output text LIBRARIES json openssl)
-leafhull_room(sweep STUDY ROOMS chart output runs LIBRARIES)
-leafhull_room(study STUDY ROOMS LIBRARIES)
+leafhull_room(sweep STUDY ROOMS chart output runs text LIBRARIES)
+leafhull_room(study STUDY ROOMS text LIBRARIES)
 leafhull_room(page STUDY ROOMS chart output study text LIBRARIES json meshoptimizer mustache)
 leafhull_room(scene FOREST ROOMS foliage input text LIBRARIES json stb)
 leafhull_room(ranks FOREST ROOMS LIBRARIES mpi)
-leafhull_room(tiles FOREST ROOMS density pipeline surface LIBRARIES tbb)
+leafhull_room(tiles FOREST ROOMS density pipeline surface text LIBRARIES tbb)
 leafhull_room(forest FOREST ROOMS density output pipeline runs surface text tiles
      LIBRARIES eigen tbb tinygltf)
 leafhull_room(cli COMMAND ROOMS text LIBRARIES cli11 json)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a test needs and may lack: it ends with 77 then, which ctest takes for skipped, and says why.
+// Checks for what a test needs. If it is missing, the test says so and exits with 77: ctest skips it.
 import { existsSync, readFileSync } from 'node:fs';
 
 function skip(why) {
@@ -7,14 +7,14 @@ function skip(why) {
   process.exit(77);
 }
 
-/** Chromium, by its path. */
+/** Needs Chromium at this path. */
 export function needChromium(path = '') {
   if (!existsSync(path)) skip(`no Chromium at '${path}'; apt-get install chromium`);
 }
 
-/** The packages in a folder that the build fills, all of them: npm writes this file last. */
+/** Needs the npm packages that the build puts into a folder, all of them: npm writes this file last. */
 export function needPackages(folder, remedy) {
   if (existsSync(`${folder}/node_modules/.package-lock.json`)) return;
   const without = `${folder}/without.txt`;
-  skip(existsSync(without) ? readFileSync(without, 'utf8') : `no packages of npm in '${folder}'; ${remedy}`);
+  skip(existsSync(without) ? readFileSync(without, 'utf8') : `no npm packages in '${folder}'; ${remedy}`);
 }

@@ -1,5 +1,5 @@
-# What tests read our files with: package.json here, which `cmake --build BUILD --target test_packages`
-# installs from npm. Tests that need one of them are skipped, loudly, where it is not there.
+# The programs that read our files in tests: `cmake --build BUILD --target test_packages` installs the
+# packages of package.json from npm. A test that needs a missing one says so and is skipped.
 set(LEAFHULL_TEST_PACKAGES ${PROJECT_BINARY_DIR}/test-packages)
 leafhull_npm_packages(${LEAFHULL_TEST_PACKAGES} ${CMAKE_CURRENT_SOURCE_DIR}
   "the tests in a browser, of tilesets and by the Khronos validator, which are skipped")
@@ -13,8 +13,8 @@ if(LEAFHULL_NO_NPM)
   set(LEAFHULL_TEST_NODE "")
 endif()
 
-# leafhull_node_test(NAME SCRIPT FIXTURE ENVIRONMENT...): a test that node runs; it exits with 77 where
-# something that it needs is missing.
+# leafhull_node_test(NAME SCRIPT FIXTURE ENVIRONMENT...): a test that node runs; it exits with 77 if
+# something it needs is missing.
 function(leafhull_node_test name script fixture)
   if(LEAFHULL_NO_NPM)
     add_test(NAME ${name} COMMAND ${CMAKE_COMMAND} -E echo "SKIPPED: ${LEAFHULL_NO_NPM}")
@@ -27,7 +27,7 @@ function(leafhull_node_test name script fixture)
     ENVIRONMENT "PACKAGES=${LEAFHULL_TEST_PACKAGES};WEB=${PROJECT_BINARY_DIR}/web;CHROMIUM=${LEAFHULL_CHROMIUM};${ARGN}")
 endfunction()
 
-# check_with_validator(TARGET): says to a test program where it is (unit/khronos_validator.h).
+# check_with_validator(TARGET): tells a test program where the validator is (unit/khronos_validator.h).
 function(check_with_validator target)
   if(TARGET ${target})
     target_compile_definitions(${target} PRIVATE

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Checks that every source and header of src/ and include/ compiles by itself, and uses all that it
-defines for itself: in a unity build it may lean on its neighbours. The arguments are the folder of a
-build that is none, where CMake has left compile_commands.json, and how many to check at a time."""
+"""Checks that every source and header of src/ and include/ compiles alone and uses everything that it
+defines for itself; a unity build does not show that. The arguments are a folder where CMake has
+written compile_commands.json for a build without unity files, and how many files to check at a time."""
 
 import concurrent.futures
 import json
@@ -24,14 +24,14 @@ def flags_of(entry):
 
 
 def checks(build):
-    """Pairs of a file's name and what compiles it."""
+    """Pairs of a file's name and the command that compiles it."""
     database = json.loads((build / "compile_commands.json").read_text())
     sources = {pathlib.Path(e["file"]): flags_of(e) for e in database}
     sources = {file: flags for file, flags in sources.items() if ROOT / "src" in file.parents}
     rooms, seen = {}, set()
     for file, flags in sources.items():
         rooms.setdefault(file.relative_to(ROOT / "src").parts[0], flags)
-        # What a source includes first is by itself there.
+        # The header that a source includes first compiles alone there.
         seen.update(INCLUDE.findall(file.read_text(encoding="utf-8"))[:1])
         yield file, ["clang++-16", *flags, *CHECK, str(file)]
     for folder in ("include", "src"):

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Checks what holds for every file: its length, its license line, its white space; and that each
-package named by cmake/dependencies.cmake is in packages.txt, where ./dev looks; and that Debian's
-node runs every package of npm, as a machine with a newer one would not show."""
+"""Checks every file's length, license line and white space; that packages.txt, which ./dev installs,
+has each package that cmake/dependencies.cmake names; and that Debian's node runs every npm package,
+which a machine with a newer node does not show."""
 
 import json
 import pathlib
@@ -34,7 +34,7 @@ def faults_of(file):
     path = file.relative_to(ROOT)
     lines = file.read_text(encoding="utf-8").splitlines()
     if source and len(lines) > LINES_MAX:
-        yield f"{path}: {len(lines)} lines; split it, {LINES_MAX} is the most"
+        yield f"{path}: {len(lines)} lines; split it, at most {LINES_MAX} are allowed"
     if source and not any("SPDX-License-Identifier: Apache-2.0" in line for line in lines[:3]):
         yield f"{path}: no SPDX-License-Identifier in the first three lines"
     if path.suffix != ".md":
@@ -52,11 +52,11 @@ def unlisted_packages():
     rows = (ROOT / "cmake/dependencies.cmake").read_text()
     for packages in re.findall(r'^ *leafhull_require\(\S+ \S+ "([^"]+)"', rows, re.MULTILINE):
         for package in sorted(set(packages.split()) - listed):
-            yield f"packages.txt: {package} is missing, which cmake/dependencies.cmake names"
+            yield f"packages.txt: lacks {package}, which cmake/dependencies.cmake names"
 
 
 def admits(versions, node):
-    """Whether `versions`, as in the field engines of a package of npm, has room for `node`."""
+    """Whether `versions`, as in the field engines of an npm package, allows the version `node`."""
 
     def holds(sign, digits):
         wanted = tuple(int(part) for part in digits.split(".") if part.isdigit())

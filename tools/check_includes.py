@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Checks who includes whom: each room of src/, and bench/, knows the rooms and the third-party
-libraries of its row in src/rooms.cmake and no others, and the public headers know nothing but the
-standard library. No two headers define a type of one name, which a linker would take for one type."""
+"""Checks who includes whom: each room of src/, and bench/, uses the rooms and third-party libraries of
+its row in src/rooms.cmake and no others; public headers use only the standard library. No two headers
+may define types of the same name, which a linker would take for one type."""
 
 import pathlib
 import re
@@ -13,7 +13,7 @@ import rooms as table
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 LIBRARIES, ROOMS = table.read()
 
-# Of POSIX and the C library, for files, processes, signals, memory and shared libraries.
+# Headers of POSIX and the C library for files, processes, signals, memory and shared libraries.
 SYSTEM = (
     "sys/", "dlfcn.h", "fcntl.h", "fnmatch.h", "malloc.h", "poll.h", "sched.h", "signal.h",
     "spawn.h", "unistd.h",
@@ -36,7 +36,7 @@ def library_of(header):
 
 
 def fault_in_room(name, header, used):
-    """What is wrong with the header in that room; what it uses of its row is added to `used`."""
+    """What is wrong with the header in that room. Adds what it uses of the room's row to `used`."""
     room = ROOMS[name]
     first = header.split("/")[0]
     if is_standard(header) or header.startswith(SYSTEM) or first in ("leafhull", name):
@@ -55,7 +55,7 @@ def granted_and_unused(used):
     for name, room in ROOMS.items():
         for known in (*room.rooms, *room.libraries):
             if (name, known) not in used:
-                yield f"src/rooms.cmake: {name} may know {known}, and does not"
+                yield f"src/rooms.cmake: {name} may know {known} but does not use it"
 
 
 def fault_in_public(header):

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""The table of src/rooms.cmake, and the column "knows" of ARCHITECTURE.md that is made of it: by itself
-the program writes that column anew."""
+"""Reads the table of src/rooms.cmake. Run as a program, it rewrites the column "knows" of
+ARCHITECTURE.md from that table."""
 
 import dataclasses
 import pathlib
@@ -16,17 +16,17 @@ ROW = re.compile(r"^\| `(?:src/)?(\w+)` \| .* \| (.*) ?\|$", re.MULTILINE)
 @dataclasses.dataclass
 class Library:
     title: str
-    headers: tuple  # how the paths of its headers begin
+    headers: tuple  # the first parts of its headers' paths
 
 
 @dataclasses.dataclass
 class Room:
-    rooms: tuple  # that it may include beside itself
-    libraries: tuple  # that it may know
+    rooms: tuple  # the rooms that it may include beside itself
+    libraries: tuple  # the libraries that it may use
 
 
 def read():
-    """The libraries and the rooms, each by name."""
+    """The libraries and the rooms, by name."""
     text = re.sub(r"^#.*$", "", (ROOT / "src/rooms.cmake").read_text(), flags=re.MULTILINE)
     libraries = {
         name: Library(title, tuple(headers.split()))

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Puts the tables that the command prints between the markers of a page: what `leafhull VERB` says
+"""Puts the tables that the command prints between the markers of a page: the output of `leafhull VERB`
 goes between <!-- VERB --> and <!-- /VERB -->."""
 
 import argparse
@@ -14,7 +14,7 @@ TABLE = re.compile(r"<!-- (help-\w+) -->\n.*?<!-- /\1 -->\n", re.DOTALL)
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--check", action="store_true", help="write nothing, fail where stale")
+    parser.add_argument("--check", action="store_true", help="writes nothing; fails if a table is stale")
     parser.add_argument("leafhull", help="the built command")
     parser.add_argument("page", type=pathlib.Path, help="the file with the markers")
     arguments = parser.parse_args()

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// extract TREE SHAPE: the whole public way, from a tree file to a shape file.
+// extract TREE SHAPE: the public API from a tree file to a shape file.
 #include <leafhull/device.h>
 #include <leafhull/error.h>
 #include <leafhull/leaves.h>

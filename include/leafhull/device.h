@@ -25,6 +25,11 @@ struct DeviceInfo {
   std::string reason;  ///< why it is usable or not, chosen or not
 };
 
+/// "DEVICE (PLATFORM, VARIANT)".
+inline std::string text_of(const DeviceInfo& device) {
+  return device.name + " (" + device.platform + ", " + device.variant + ")";
+}
+
 struct DeviceOptions {
   std::string choice;   ///< index or part of a name; empty: a GPU if there is one, else a CPU
   int threads = 0;      ///< bounds OpenCL (PoCL) and TBB; 0: all cores

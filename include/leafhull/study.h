@@ -45,7 +45,8 @@ struct StudyTime {
 /// Whether a claim holds; open: there are no figures to compare.
 enum class Outcome { holds, fails, open };
 
-std::string_view name(Outcome outcome);  ///< "holds", "fails", "open"
+std::string_view name(Outcome outcome);      ///< "holds", "fails", "open"
+std::string_view in_words(Outcome outcome);  ///< "holds", "does not hold", "cannot be told"
 
 /// One claim of the paper, or half of one, tested on one tree under one reading. Plain text.
 struct Verdict {

@@ -49,6 +49,17 @@ struct Primitive {
 using Transform = std::array<std::array<double, 4>, 3>;
 inline constexpr Transform kIdentity{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
 
+inline Vec3d transformed(const Transform& m, Vec3d p) {
+  const auto row = [&](int i) { return m[i][0] * p.x + m[i][1] * p.y + m[i][2] * p.z + m[i][3]; };
+  return {row(0), row(1), row(2)};
+}
+
+/// The rows of the matrix that turns normals: the inverse transpose of the linear part up to scale.
+inline std::array<Vec3d, 3> cofactors(const Transform& m) {
+  const auto row = [&](int i) { return Vec3d{m[i][0], m[i][1], m[i][2]}; };
+  return {cross(row(1), row(2)), cross(row(2), row(0)), cross(row(0), row(1))};
+}
+
 /// A named place in the file's hierarchy: a node of glTF, an object or group of OBJ.
 struct TreeNode {
   std::string name;

@@ -4,13 +4,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <map>
 #include <string_view>
+#include <system_error>
 
-#include "chart/gnuplot.h"
 #include "chart/layout.h"
 #include "leafhull/error.h"
+#include "process/memory_file.h"
+#include "process/process.h"
+#include "text/choice.h"
+#include "text/numbers.h"
 #include "text/text.h"
 
 namespace leafhull {
@@ -36,12 +39,6 @@ constexpr std::array<std::string_view, 5> kDashes{"solid", "(12,4)", "(4,3)", "(
 Look look_of(std::size_t index) {
   return {kColors[index % kColors.size()], kPoints[index % kPoints.size()],
           kDashes[index % kDashes.size()]};
-}
-
-std::string number(double value) {
-  char text[40];
-  std::snprintf(text, sizeof text, "%.17g", value);
-  return text;
 }
 
 /// A quoted text for gnuplot, with subscripts.
@@ -85,8 +82,8 @@ class Script {
 
   std::string text() {
     add("set encoding utf8");
-    add("set terminal svg enhanced dynamic rounded size " + number(kChartWidth) + ',' +
-        number(layout_.height) + " font 'sans-serif," + number(kLabelSize) + '\'');
+    add("set terminal svg enhanced dynamic rounded size " + shortest(kChartWidth) + ',' +
+        shortest(layout_.height) + " font 'sans-serif," + shortest(kLabelSize) + '\'');
     add("set multiplot");
     add("unset key; unset border; set tics nomirror scale 0");
     add("set grid ytics lt 1 lw 1 lc rgb '#E2E2E2'");
@@ -107,13 +104,13 @@ class Script {
   std::string at(double x, double y) const {
     return " screen " + across(x) + ", screen " + up(y) + ' ';
   }
-  static std::string across(double x) { return number(x / kChartWidth); }
-  std::string up(double y) const { return number(1 - y / layout_.height); }
+  static std::string across(double x) { return shortest(x / kChartWidth); }
+  std::string up(double y) const { return shortest(1 - y / layout_.height); }
 
   void add_label(const ChartText& label) {
     if (label.text.empty()) return;
     add("set label " + quoted(label.text) + " at" + at(label.x, label.y - 0.3 * label.size) +
-        (label.centred ? "center" : "left") + " tc rgb '#222222' font '," + number(label.size) +
+        (label.centred ? "center" : "left") + " tc rgb '#222222' font '," + shortest(label.size) +
         '\'');
   }
 
@@ -146,17 +143,17 @@ class Script {
     const std::string rule = " nohead lw 1 lc rgb '#808080' back";
     add("set arrow from graph 0, first 0 to graph 1, first 0" + rule);
     for (const Tick& tick : panel.x.ticks) {
-      add("set arrow from first " + number(tick.value) + ", graph 0 rto 0, graph -0.02" + rule);
+      add("set arrow from first " + shortest(tick.value) + ", graph 0 rto 0, graph -0.02" + rule);
     }
   }
 
   void add_axis(const std::string& name, const Axis& axis) {
-    std::string ticks;
-    for (const Tick& tick : axis.ticks) {
-      ticks += (ticks.empty() ? "" : ", ") + quoted(tick.text) + ' ' + number(tick.value);
-    }
-    add("set " + name + "range [" + number(axis.low) + ':' + number(axis.high) + ']');
-    add("set " + name + "tics (" + ticks + ") tc rgb '#444444' font '," + number(kTickSize) + '\'');
+    const std::string ticks = joined(axis.ticks, ", ", [](const Tick& tick) {
+      return quoted(tick.text) + ' ' + shortest(tick.value);
+    });
+    add("set " + name + "range [" + shortest(axis.low) + ':' + shortest(axis.high) + ']');
+    add("set " + name + "tics (" + ticks + ") tc rgb '#444444' font '," + shortest(kTickSize) +
+        '\'');
   }
 
   void add_lines(const ChartPanel& panel) {
@@ -192,8 +189,8 @@ class Script {
       const bool alone = !there(i - 1) && !there(i + 1);
       const bool marked =
           count <= kMarkedPoints || alone || i == 0 || interval(i) > interval(i - 1);
-      const std::string y = number(line.y[i]);
-      add(number(line.x[i]) + ' ' + y + ' ' + (marked ? y : "NaN"));
+      const std::string y = shortest(line.y[i]);
+      add(shortest(line.x[i]) + ' ' + y + ' ' + (marked ? y : "NaN"));
     }
     if (count == 0) add("0 NaN NaN");
   }
@@ -224,6 +221,34 @@ void replace_all(std::string& text, std::string_view from, std::string_view to) 
        at = text.find(from, at + to.size())) {
     text.replace(at, from.size(), to);
   }
+}
+
+[[noreturn]] void fail(const std::string& reason, const std::string& remedy = {}) {
+  throw Error(ErrorCode::output, "charts cannot be drawn: " + reason, remedy);
+}
+
+void start_and_wait(const MemoryFile& input, const MemoryFile& output, const MemoryFile& messages) {
+  const auto start = [&]() -> Process {
+    try {
+      return Process({"gnuplot", "-d"},
+                     {input.descriptor(), output.descriptor(), messages.descriptor()});
+    } catch (const std::system_error& error) {
+      fail("gnuplot does not start (" + error.code().message() + ")",
+           "Install gnuplot 5 on the PATH; on Debian: apt-get install gnuplot-nox");
+    }
+  };
+  if (!start().wait()) fail("gnuplot says" + one_line(' ' + messages.read()));
+}
+
+/// The output of gnuplot for a script. Gnuplot ignores the user's settings and locale.
+/// @throws Error output: gnuplot is missing, or says why it fails.
+std::string run_gnuplot(const std::string& script) try {
+  const MemoryFile input, output, messages;
+  input.write(script);
+  start_and_wait(input, output, messages);
+  return output.read();
+} catch (const std::system_error& error) {
+  fail(error.code().message());
 }
 
 }  // namespace

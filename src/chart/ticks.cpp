@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+#include <utility>
+
+#include "text/numbers.h"
 
 namespace leafhull {
 namespace {
@@ -13,16 +15,9 @@ constexpr std::size_t kFewIntervals = 24;
 
 /// 2.5, 40,000, and on an axis of millions 0.5 M.
 std::string text_of(double value, bool in_millions) {
-  char text[40];
   in_millions &= std::abs(value) >= kMillion / 10;
-  std::snprintf(text, sizeof text, "%.6g", in_millions ? value / kMillion : value);
-  std::string result = text;
-  if (result.find_first_of(".e") == std::string::npos) {
-    const int first_digit = value < 0 ? 1 : 0;
-    for (int at = static_cast<int>(result.size()) - 3; at > first_digit; at -= 3) {
-      result.insert(static_cast<std::size_t>(at), 1, ',');
-    }
-  }
+  std::string result = significant(in_millions ? value / kMillion : value, 6);
+  if (result.find_first_of(".e") == std::string::npos) result = grouped(std::move(result));
   return in_millions ? result + " M" : result;
 }
 

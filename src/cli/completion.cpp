@@ -39,9 +39,7 @@ std::vector<OptionLine> lines_of(const std::vector<Flag>& flags) {
 }
 
 std::string names_of(const std::vector<OptionLine>& lines) {
-  std::string names;
-  for (const OptionLine& line : lines) names += (names.empty() ? "" : " ") + names_of(line).back();
-  return names;
+  return joined(lines, " ", [](const OptionLine& line) { return names_of(line).back(); });
 }
 
 std::vector<Verb> visible_verbs() {
@@ -218,9 +216,9 @@ void run_completion(const Arguments& arguments) {
 
 Verb completion_verb() {
   return {.name = "completion",
-          .summary = "a script by which bash, zsh or fish completes this command",
+          .summary = "a completion script for bash, zsh or fish",
           .about =
-              "Prints a script by which SHELL completes verbs, options and their values. It is\n"
+              "Prints a script with which SHELL completes verbs, options and their values. It is\n"
               "installed with leafhull where the shells look for it.",
           .examples =
               "  source <(leafhull completion bash)\n"

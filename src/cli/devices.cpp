@@ -52,7 +52,7 @@ void run_devices(const Arguments& arguments) {
   const auto usable = [](const DeviceInfo& device) { return device.usable; };
   if (std::none_of(devices.begin(), devices.end(), usable)) {
     throw Error(ErrorCode::device, "no usable OpenCL device was found",
-                "PoCL makes one of the CPU: apt-get install pocl-opencl-icd");
+                "PoCL turns the CPU into one: apt-get install pocl-opencl-icd");
   }
   const auto chosen = [](const DeviceInfo& device) { return device.chosen; };
   if (std::none_of(devices.begin(), devices.end(), chosen)) {

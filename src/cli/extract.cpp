@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
-#include <utility>
 
 #include "cli/context.h"
 #include "cli/signals.h"
@@ -58,14 +57,12 @@ std::vector<std::string> without_effect(const Arguments& arguments, const Option
 
 void say_summary(Console& console, const Shape& shape, const OutputFiles& files, double elapsed) {
   const Report& report = shape.report;
-  std::string where;
-  for (const auto& file : named(files)) {
-    where += (where.empty() ? "" : ", ") + (file == "-" ? "standard output" : file.string());
-  }
+  const std::string where = joined(named(files), ", ", [](const auto& file) {
+    return file == "-" ? "standard output" : file.string();
+  });
   console.say("leafhull: " + count(report.counts.mesh_vertices) + " vertices, " +
               count(report.counts.mesh_triangles) + " triangles, " +
-              count(report.counts.components) +
-              (report.counts.components == 1 ? " component" : " components") +
+              counted(report.counts.components, "component") +
               " at T = " + number(report.threshold, 4) + " in " + seconds(elapsed) + ": " + where);
 }
 

@@ -47,7 +47,7 @@ std::vector<Flag> tree_flags() {
       flag.hidden = true;
       flag.set = [option = option, why = why](Arguments&, const std::string&) {
         throw Error(ErrorCode::usage,
-                    "--" + std::string(option) + " is not for forests: " + std::string(why),
+                    "--" + std::string(option) + " does not apply to forests: " + std::string(why),
                     "Leave it out.");
       };
     }
@@ -67,8 +67,9 @@ void check_name(const fs::path& file, std::string_view what, const fs::path& fol
     for (const char* name : {"manifest.json", "tileset.json", "forest.glb", "tiles", "work"}) {
       if (within.empty() || *within.begin() != name) continue;
       throw Error(ErrorCode::usage,
-                  std::string(what) + " " + file.string() + " has a name of the forest's own: " +
-                      (folder / name).string() + " would be overwritten or removed",
+                  std::string(what) + " " + file.string() +
+                      " has the name of one of the forest's files: " + (folder / name).string() +
+                      " would be overwritten or removed",
                   "Name another file, or another folder with -o.");
     }
   }
@@ -123,10 +124,11 @@ void check_ranks_agree(const Arguments& arguments, Ranks& ranks) {
   const std::vector<std::string> all = ranks.all(words);
   for (std::size_t rank = 1; rank < all.size(); ++rank) {
     if (all[rank] == all.front()) continue;
-    throw Error(ErrorCode::usage,
-                "rank " + std::to_string(rank) + " was started with other words than rank 0",
-                "Give all ranks the same command. For parts of their own start them without MPI "
-                "(srun --mpi=none).");
+    throw Error(
+        ErrorCode::usage,
+        "rank " + std::to_string(rank) + " was started with another command than rank 0",
+        "Give all ranks the same command. To compute separate parts, start each without MPI "
+        "(srun --mpi=none).");
   }
 }
 
@@ -134,15 +136,15 @@ void check_ranks_agree(const Arguments& arguments, Ranks& ranks) {
 void check_ranks_share_all(const Arguments& arguments, const Ranks& ranks) {
   if (ranks.size() == 1 || !arguments.forest.range) return;
   throw Error(ErrorCode::usage,
-              "--tile-range is not for ranks: the " + std::to_string(ranks.size()) +
+              "--tile-range does not apply to ranks: the " + std::to_string(ranks.size()) +
                   " that were started share all tiles",
               "Leave it out, or start each part on its own, without mpirun.");
 }
 
 std::string how_to_go_on(const ForestOptions& forest) {
-  if (forest.resume) return "the same command goes on";
+  if (forest.resume) return "the same command continues";
   return std::string("the same command with --resume") +
-         (forest.restart ? " in place of --restart" : "") + " goes on";
+         (forest.restart ? " in place of --restart" : "") + " continues";
 }
 
 DeviceOptions device_of(const Arguments& arguments, const Ranks& ranks) {
@@ -153,7 +155,7 @@ DeviceOptions device_of(const Arguments& arguments, const Ranks& ranks) {
 
 void warn_of_memory(const Arguments& arguments, Context& context) {
   if (!arguments.given.contains("memory") || arguments.forest.merge != Merge::none) return;
-  context.warn({"--memory bounds a canopy alone: --merge none takes what its models need"});
+  context.warn({"--memory only bounds a canopy; --merge none takes what its models need"});
 }
 
 std::string per_second(double leaf_vertices, double seconds) {
@@ -165,7 +167,7 @@ std::string per_second(double leaf_vertices, double seconds) {
 
 std::string tiles_in_words(const ForestSummary& summary) {
   std::string text = counted(summary.tiles, "tile");
-  if (summary.resumed > 0) text += ", " + count(summary.resumed) + " of them from before";
+  if (summary.resumed > 0) text += ", " + count(summary.resumed) + " of them from an earlier run";
   if (summary.empty > 0) text += ", " + count(summary.empty) + " without a surface";
   if (summary.remaining > 0) text += ", " + count(summary.remaining) + " still to do";
   return text;
@@ -176,7 +178,7 @@ void say_summary(Context& context, const ForestSummary& summary, const Arguments
   const double elapsed = context.elapsed();
   if (summary.was_finished) {
     context.console.say("leafhull: " + arguments.output.string() +
-                        " holds this forest, finished: nothing was to do");
+                        " holds this forest, finished; nothing was left to do");
     return;
   }
   context.say_stages(summary.seconds, "  ", 18);
@@ -320,7 +322,7 @@ Verb forest_verb() {
           "\n"
           "On many machines: mpirun leafhull forest, where leafhull is built with MPI; or, on\n"
           "farms without, --tile-range 1/N to N/N and then --finish, on one folder. The result\n"
-          "has the same bytes. What is done is never lost: --resume goes on.",
+          "has the same bytes. Finished work is never lost: --resume continues.",
       .examples =
           "  leafhull forest stand.csv -o stand/ --voxel-size 0.25\n"
           "  leafhull forest stand.csv -o stand/ --levels 4 --single stand.glb\n"

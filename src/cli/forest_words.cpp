@@ -68,7 +68,7 @@ void tell_why() noexcept {
   }
   if (lost == 0 && !this_run.tells_stop) return;
   line.add(lost > 0 ? " died" : "stopped");
-  if (lost == 0 && this_run.has_other_hosts) line.add(", perhaps by a rank of another host");
+  if (lost == 0 && this_run.has_other_hosts) line.add(", perhaps by a rank on another host");
   line.add("; ");
   if (this_run.tiles > 0) {
     line.add("still to do: ");

@@ -125,7 +125,7 @@ void print_candidates(const LeafChoice& choice) {
   }
   std::cout << table(lines);
   if (rows.size() > kMostRows) {
-    std::cout << "and " << count(rows.size() - kMostRows) << " more, all of them with --json\n";
+    std::cout << "and " << count(rows.size() - kMostRows) << " more; --json lists them all\n";
   }
 }
 
@@ -156,11 +156,7 @@ bool lies_on_its_side(const TreeModel& tree, const LeafSet& leaves) {
   Box all = leaves.crown;
   for (const Instance& instance : tree.instances) {
     for (const Vec3f p : tree.primitives[instance.primitive].positions) {
-      const auto at = [&](const std::array<double, 4>& row) {
-        return row[0] * p.x + row[1] * p.y + row[2] * p.z + row[3];
-      };
-      const auto& [x, y, z] = instance.to_world;
-      all.include({at(x), at(y), at(z)});
+      all.include(transformed(instance.to_world, Vec3d(p)));
     }
   }
   const Vec3d away = leaves.crown.low + leaves.crown.high - all.low - all.high;

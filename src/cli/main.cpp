@@ -105,7 +105,7 @@ void run(const std::vector<std::string>& command) {
   const auto verb = std::find_if(verbs.begin(), verbs.end(), is_chosen);
   if (verb == verbs.end()) refuse_verb(app.remaining(), verbs);
   if (!app.remaining().empty()) {
-    throw Error(ErrorCode::usage, app.remaining().front() + " stands before the verb",
+    throw Error(ErrorCode::usage, app.remaining().front() + " comes before the verb",
                 "Options follow the verb: leafhull " + std::string(verb->name) + " [options].");
   }
   refuse_extras(app.get_subcommand(std::string(verb->name))->remaining(), *verb);
@@ -125,7 +125,7 @@ int exit_code(const std::vector<std::string>& command) {
     run(command);
     if (!std::cout.flush()) {
       throw Error(ErrorCode::output, "standard output could not be written",
-                  "Look at the disk or the pipe it goes to.");
+                  "Check the disk or the pipe that it goes to.");
     }
     return 0;
   } catch (const std::exception&) {

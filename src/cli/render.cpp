@@ -8,7 +8,6 @@
 #include <memory>
 #include <span>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "cli/context.h"
@@ -183,8 +182,8 @@ class Run {
 
   void say_files(const PictureSummary& summary) {
     const int frames = arguments_.render.frames.value_or(0);
-    std::string where;
-    for (const fs::path& file : summary.files) where += (where.empty() ? "" : ", ") + file.string();
+    const std::string where =
+        joined(summary.files, ", ", [](const fs::path& file) { return file.string(); });
     context_.console.say("leafhull: " + std::to_string(plan_.picture.width) + "x" +
                          std::to_string(plan_.picture.height) + " pixels" +
                          (frames > 0 ? ", " + std::to_string(frames) + " frames" : "") + " in " +

@@ -56,7 +56,7 @@ void run_scatter(const Arguments& arguments) {
 
 Verb scatter_verb() {
   return {.name = "scatter",
-          .summary = "a forest of some trees: who stands where, for leafhull forest",
+          .summary = "a scatter file for leafhull forest: trees placed at random",
           .about =
               "Places copies of the TREEs at random, none too near to another (a Poisson-disk\n"
               "pattern), turned about y and scaled, over a rectangle that may have hills. The\n"

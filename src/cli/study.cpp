@@ -110,11 +110,6 @@ LeafSet leaves_of(const fs::path& file, const Options& options, Context& context
   return context.find_leaves(tree, options.leaf_options());
 }
 
-std::string_view in_words(Outcome outcome) {
-  constexpr std::string_view kWords[] = {"holds", "does not hold", "cannot be told"};
-  return kWords[static_cast<std::size_t>(outcome)];
-}
-
 /// Prints the verdicts under the project's own reading, and under how many each claim holds.
 void print_verdicts(const TreeStudy& tree) {
   std::vector<std::vector<std::string>> rows = {{"claim", "own reading", "holds in"}};

@@ -40,7 +40,7 @@ void print_table(const Arguments& arguments, const std::vector<Suggestion>& choi
         {percent(choice.erosion), percent(choice.dilation),
          had ? number(*report.options.radius_max, 3) : "-", had ? number(report.threshold, 4) : "-",
          had ? volume(choice.dilated_volume) : "-", had ? percent(choice.dilated_share) : "-",
-         !had           ? "cannot be had"
+         !had           ? "out of reach"
          : choice.empty ? "no surface"
                         : count(report.counts.components)});
   }
@@ -49,7 +49,7 @@ void print_table(const Arguments& arguments, const std::vector<Suggestion>& choi
                "erosion         how much of the leaf area is left outside: more is thinner\n"
                "dilation        how much of the shape, in 64 voxels along it, holds no leaf: more\n"
                "                is rounder\n"
-               "R_max           the radius that this takes, in crown units, 1/64 of the crown\n"
+               "R_max           the radius that this needs, in crown units, 1/64 of the crown\n"
                "dilated volume  what the shape fills beyond the leaves, model units cubed, and as\n"
                "                a share of the leaves' bounding box\n"
                "\nTry\n";
@@ -122,8 +122,8 @@ Verb suggest_verb() {
   return {.name = "suggest",
           .summary = "nine shapes of a tree to choose from, as a table and pictures",
           .about =
-              "Tries erosions of 2, 12 and 25% with the least and the most dilation that go with\n"
-              "each on TREE, and one between: what each comes to, a picture, and the command.",
+              "Tries erosions of 2, 12 and 25% on TREE, each with the least and the most dilation\n"
+              "it allows and one between. Prints what each yields and its command, and draws it.",
           .examples =
               "  leafhull suggest birch.glb\n"
               "  leafhull suggest birch.glb --preset draft -o strip.png --json\n",

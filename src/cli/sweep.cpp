@@ -107,9 +107,8 @@ SweepPlan plan_of(const Arguments& arguments) {
 int first_falloff(const SweepPlan& plan) { return plan.combinations.front().falloff; }
 
 void say_summary(Context& context, const SweepSummary& summary, const Arguments& arguments) {
-  std::string text = "leafhull: " + count(summary.combinations) +
-                     (summary.combinations == 1 ? " combination" : " combinations");
-  if (summary.resumed > 0) text += ", " + count(summary.resumed) + " of them from before";
+  std::string text = "leafhull: " + counted(summary.combinations, "combination");
+  if (summary.resumed > 0) text += ", " + count(summary.resumed) + " of them from an earlier run";
   if (summary.empty > 0) text += ", " + count(summary.empty) + " without a surface";
   if (summary.failed > 0) text += ", " + count(summary.failed) + " that failed (see sweep.csv)";
   context.console.say(text + " in " + seconds(context.elapsed()) + ": " +
@@ -136,7 +135,7 @@ void run_sweep_verb(const Arguments& arguments) {
                     ? ""
                     : "leafhull: stopped; what is done is in " + folder + ": the same command" +
                           (arguments.restart ? " without --restart" : "") +
-                          " goes on from there\n");
+                          " continues from there\n");
 
   bool begun = false;
   const SweepSummary summary = run_sweep(
@@ -161,14 +160,14 @@ Verb sweep_verb() {
       .about =
           "Extracts TREE with every combination of several values of options, and keeps in a\n"
           "folder: sweep.csv and sweep.json with a row for each, a plot for each swept number,\n"
-          "and contact-sheet.png with their pictures, which also stand alone in pictures/.\n"
+          "and contact-sheet.png with their pictures, which are also in pictures/.\n"
           "\n"
           "In Shape and Resolution, a number may be a range first:last:step, both ends\n"
-          "included, or a list a,b,c; a NAME may be a list. Percentages have their % each:\n"
+          "included, or a list a,b,c; a NAME may be a list. Write each percentage with its %:\n"
           "--threshold 30%:60%:10%. The options are combined in the order below, the first\n"
           "changing slowest. A row's seconds are what it took beyond the rows before it.\n"
           "\n"
-          "Ctrl-C loses no finished combination: the same command goes on where it stopped.",
+          "Ctrl-C loses no finished combination: the same command continues where it stopped.",
       .examples =
           "  leafhull sweep birch.glb --threshold 1.5:2.5:0.25 -o out\n"
           "  leafhull sweep birch.glb --coverage 0.8:0.98:0.06 --radius-max 1.5,2.5,4 -o out\n"

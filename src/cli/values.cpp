@@ -4,25 +4,15 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <optional>
 #include <utility>
 
 #include "leafhull/error.h"
+#include "text/numbers.h"
 
 namespace leafhull::cli {
 namespace {
-
-template <class Number>
-std::optional<Number> parsed(std::string_view text) {
-  Number value{};
-  const char* end = text.data() + text.size();
-  const auto result = std::from_chars(text.data(), end, value);
-  if (result.ec != std::errc() || result.ptr != end) return {};
-  return value;
-}
 
 [[noreturn]] void refuse(const Typed& typed, const std::string& why, const std::string& remedy) {
   throw Error(ErrorCode::usage, typed.flag + " '" + typed.text + "' " + why, remedy);
@@ -55,12 +45,6 @@ void parse_whole(Whole& value, const Typed& typed) {
                std::to_string(std::llround(high)) + ".");
   }
   value = *whole;
-}
-
-std::string print(const char* format, int precision, double value) {
-  std::array<char, 64> buffer;
-  std::snprintf(buffer.data(), buffer.size(), format, precision, value);
-  return buffer.data();
 }
 
 }  // namespace
@@ -104,7 +88,7 @@ void parse(ByteCount& value, const Typed& typed) {
   value.bytes = static_cast<std::uint64_t>(size);
   if (size < typed.line.low) {
     const auto least = static_cast<std::uint64_t>(typed.line.low);
-    refuse(typed, "is too little", "Give " + bytes(least) + " or more.");
+    refuse(typed, "is too small", "Give " + bytes(least) + " or more.");
   }
 }
 
@@ -223,22 +207,12 @@ void set_option(Options& options, const OptionRow& row, const std::string& text)
       fraction ? percent / 100 : percent;
 }
 
-std::string number(double value, int digits) { return print("%.*g", digits, value); }
-
-std::string seconds(double value) { return print("%.*f s", value < 1 ? 3 : 2, value); }
+std::string seconds(double value) { return fixed(value, value < 1 ? 3 : 2) + " s"; }
 
 std::string bytes(std::uint64_t value) {
   const double mebibytes = std::ldexp(static_cast<double>(value), -20);
-  return mebibytes < 1024 ? print("%.*f MiB", 0, mebibytes)
-                          : print("%.*g GiB", 3, mebibytes / 1024);
-}
-
-std::string count(std::uint64_t value) {
-  std::string text = std::to_string(value);
-  for (auto at = static_cast<std::ptrdiff_t>(text.size()) - 3; at > 0; at -= 3) {
-    text.insert(static_cast<std::size_t>(at), 1, ',');
-  }
-  return text;
+  return mebibytes < 1024 ? fixed(mebibytes, 0) + " MiB"
+                          : significant(mebibytes / 1024, 3) + " GiB";
 }
 
 std::string counted(std::uint64_t things, const std::string& name) {

@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <type_traits>
 #include <utility>
 #include <variant>
@@ -15,6 +14,7 @@
 #include "leafhull/options.h"
 #include "leafhull/render.h"
 #include "text/choice.h"
+#include "text/numbers.h"
 
 namespace leafhull::cli {
 
@@ -98,10 +98,11 @@ void set_option(Options& options, const OptionRow& row, const std::string& text)
 /// Quoted for a POSIX shell where it has to be.
 std::string quoted(const std::string& word);
 
-std::string number(double value, int digits = 6);  ///< with at most `digits` significant digits
-std::string count(std::uint64_t value);            ///< 1,234,567
-std::string seconds(double value);                 ///< 0.123 s
-std::string bytes(std::uint64_t value);            ///< 512 MiB, 1.5 GiB
+/// With at most `digits` significant digits.
+inline std::string number(double value, int digits = 6) { return significant(value, digits); }
+inline std::string count(std::uint64_t value) { return grouped(value); }
+std::string seconds(double value);       ///< 0.123 s
+std::string bytes(std::uint64_t value);  ///< 512 MiB, 1.5 GiB
 /// "1 tree", "2 trees"
 std::string counted(std::uint64_t things, const std::string& name);
 

@@ -98,4 +98,14 @@ Vec3f shown_oklab(Vec3d lab) {
   return {std::clamp(r, 0.0f, 1.0f), std::clamp(g, 0.0f, 1.0f), std::clamp(b, 0.0f, 1.0f)};
 }
 
+Vec3d oklab_of_srgb(Vec3f srgb) {
+  return oklab_of(Vec3f(Vec3d(linear_of_srgb(double{srgb.x}), linear_of_srgb(double{srgb.y}),
+                              linear_of_srgb(double{srgb.z}))));
+}
+
+Vec3f shown_srgb(Vec3d lab) {
+  const Vec3f linear = shown_oklab(lab);
+  return Vec3f(Vec3d(srgb_of_linear(linear.x), srgb_of_linear(linear.y), srgb_of_linear(linear.z)));
+}
+
 }  // namespace leafhull

@@ -35,10 +35,14 @@ Hsv hsv_of(Vec3f linear);
 /// Lightness from 0 to 1 and two axes of hue. Colours that look alike lie close; a distance of 0.02
 /// is just visible. Source: Ottosson, "A perceptual color space for image processing", 2020.
 Vec3d oklab_of(Vec3f linear);
+/// As oklab_of(), of sRGB values from 0 to 1.
+Vec3d oklab_of_srgb(Vec3f srgb);
 /// The inverse of oklab_of(); channels may lie outside of 0..1.
 Vec3f linear_of_oklab(Vec3d lab);
 /// As linear_of_oklab(), but within 0..1, with less chroma if necessary.
 Vec3f shown_oklab(Vec3d lab);
+/// As shown_oklab(), in sRGB.
+Vec3f shown_srgb(Vec3d lab);
 
 /// The colour of foliage if it is unknown; linear.
 inline constexpr Vec3f kLeafGreen{0.13f, 0.3f, 0.07f};

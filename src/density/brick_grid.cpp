@@ -70,7 +70,7 @@ BrickGrid::BrickGrid(const Field& field) {
   const std::int64_t count = std::int64_t{size.x} * size.y * size.z;
   if (count > kMostRoots) {
     throw Error(ErrorCode::usage, "the crown is too wide for this resolution to be drawn directly",
-                "Lower --resolution, or take --surface mesh.");
+                "Lower --resolution, or use --surface mesh.");
   }
   roots.assign(static_cast<std::size_t>(count), kOutside);
   for (const Block& block : inside) {

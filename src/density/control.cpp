@@ -3,12 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 #include <numeric>
 #include <string>
 
 #include "leafhull/error.h"
+#include "text/numbers.h"
 
 namespace leafhull {
 namespace {
@@ -21,19 +21,15 @@ constexpr double kSmallestRadius = 1e-3;
 constexpr double kLeastSpread = 0.15;
 
 std::string text_of(const BandEnd& end) {
-  char value[40];
-  std::snprintf(value, sizeof value, end.percent ? "%g%%" : "%g",
-                end.percent ? *end.percent : *end.deviations);
-  return value;
+  return end.percent ? significant(*end.percent, 6) + "%" : significant(*end.deviations, 6);
 }
 
 [[noreturn]] void refuse_upside_down(const DensityStatistics& s, const ControlOptions& options) {
-  char text[200];
-  std::snprintf(text, sizeof text,
-                "the band is upside down: --band-low %s is a density of %.4g on this tree, "
-                "--band-high %s one of %.4g",
-                text_of(options.low).c_str(), s.p1, text_of(options.high).c_str(), s.p2);
-  throw Error(ErrorCode::usage, text, "Give both ends in percent, or both as deviations.");
+  throw Error(ErrorCode::usage,
+              "the band is upside down: --band-low " + text_of(options.low) + " is a density of " +
+                  significant(s.p1, 4) + " on this tree, --band-high " + text_of(options.high) +
+                  " one of " + significant(s.p2, 4),
+              "Give both ends in percent, or both as deviations.");
 }
 
 /// The highest threshold that keeps a sheet whole, as a share of the sheet's density.

@@ -80,6 +80,20 @@ inline Coord cell_of(Vec3d local) {
           static_cast<std::int32_t>(std::floor(local.z))};
 }
 
+/// A corner of a cell: bit 2 of `i` is x, bit 1 y, bit 0 z.
+inline Coord corner(Coord cell, int i) { return cell + Coord{i >> 2 & 1, i >> 1 & 1, i & 1}; }
+
+/// The trilinear value at a point of a cell, 0..1 along each axis; `value(i)` is corner i's.
+template <class Value>
+double trilinear(Vec3d at, const Value& value) {
+  double sum = 0;
+  for (int i = 0; i < 8; ++i) {
+    const double x = i >> 2 & 1 ? at.x : 1 - at.x, y = i >> 1 & 1 ? at.y : 1 - at.y;
+    sum += x * y * (i & 1 ? at.z : 1 - at.z) * static_cast<double>(value(i));
+  }
+  return sum;
+}
+
 /// The origin of the block of edge `edge` (a power of two) that holds a cell.
 inline Coord block_origin(Coord cell, int edge) {
   return {cell.x & -edge, cell.y & -edge, cell.z & -edge};

@@ -47,8 +47,8 @@ cl::Program Device::Engine::build(const cl::Program::Sources& sources,
     throw Error(ErrorCode::device,
                 "the OpenCL kernels do not build on '" + info.name + "' (" + error.what() + ", " +
                     std::to_string(error.err()) + "):\n" + trimmed(log),
-                "Choose another device with --device; if this is PoCL, see that its cache folder "
-                "(POCL_CACHE_DIR) can be written to.");
+                "Choose another device with --device; if this is PoCL, check that its cache folder "
+                "(POCL_CACHE_DIR) is writable.");
   }
 }
 

@@ -2,7 +2,6 @@
 #include "device/evaluator.h"
 
 #include <algorithm>
-#include <string>
 
 #include "device/engine.h"
 #include "leafhull/error.h"
@@ -30,10 +29,10 @@ struct Evaluator::Impl {
   int falloff;
   cl::Buffer kernels;
 
-  /// Runs a kernel on all groups, a launch's share at a time. Its arguments are the kernels, the
-  /// groups, their lists, boxes and marks, then `more`.
-  template <class... More>
-  void launch_points(cl::Kernel& kernel, PointBatch& batch, const More&... more) {
+  /// Runs a kernel over the points of a batch, a launch's share at a time.
+  template <class... Arguments>
+  void over_points(const char* name, PointBatch& batch, const Arguments&... arguments) {
+    cl::Kernel kernel = engine.kernel(name, falloff);
     const cl::Buffer list = engine.input(batch.bricks.kernels);
     const std::size_t items = engine.vector() ? 1 : kGroupChunks * batch.chunk_points;
     for (std::size_t begin = 0, end = 0; begin < batch.groups.size(); begin = end) {
@@ -51,7 +50,7 @@ struct Evaluator::Impl {
       const cl::Buffer groups = part(batch.groups), boxes = part(batch.boxes);
       const cl::Buffer scratch(engine.context, CL_MEM_READ_WRITE,
                                std::max<std::size_t>(marks, 1) * sizeof(std::uint32_t));
-      set_arguments(kernel, kernels, groups, list, boxes, scratch, more...);
+      set_arguments(kernel, kernels, groups, list, boxes, scratch, arguments...);
       engine.queue.enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange((end - begin) * items),
                                         cl::NDRange(items));
     }
@@ -106,11 +105,10 @@ std::vector<float> Evaluator::density(PointBatch& batch) {
   Impl& d = *impl_;
   std::vector<float> density(batch.index.size());
   d.engine.run("evaluating the density at points", [&] {
-    cl::Kernel kernel = d.engine.kernel("density_points", d.falloff);
     const cl::Buffer x = d.engine.input(batch.x), y = d.engine.input(batch.y),
                      z = d.engine.input(batch.z);
     const cl::Buffer out = d.engine.buffer(std::span(density), CL_MEM_WRITE_ONLY);
-    d.launch_points(kernel, batch, x, y, z, out);
+    d.over_points("density_points", batch, x, y, z, out);
     d.engine.fetch(out, std::span(density));
   });
   return density;
@@ -121,15 +119,14 @@ Evaluator::Normals Evaluator::snap(PointBatch& batch, double threshold, int step
   Normals normals;
   for (auto* v : {&normals.x, &normals.y, &normals.z}) v->resize(batch.index.size());
   d.engine.run("moving vertices onto the surface", [&] {
-    cl::Kernel kernel = d.engine.kernel("snap_points", d.falloff);
     std::vector<float>* const host[] = {&batch.x,   &batch.y,   &batch.z,
                                         &normals.x, &normals.y, &normals.z};
     cl::Buffer out[6];
     for (cl_uint i = 0; i < 6; ++i) {
       out[i] = d.engine.buffer(std::span(*host[i]), CL_MEM_READ_WRITE);
     }
-    d.launch_points(kernel, batch, static_cast<cl_float>(threshold), static_cast<cl_int>(steps),
-                    out[0], out[1], out[2], out[3], out[4], out[5]);
+    d.over_points("snap_points", batch, static_cast<cl_float>(threshold),
+                  static_cast<cl_int>(steps), out[0], out[1], out[2], out[3], out[4], out[5]);
     for (cl_uint i = 0; i < 6; ++i) d.engine.fetch(out[i], std::span(*host[i]));
   });
   return normals;

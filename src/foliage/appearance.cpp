@@ -186,11 +186,6 @@ std::vector<Appearance> describe(const Surface& surface, const std::vector<std::
 
 }  // namespace
 
-Vec3d transformed(const Transform& m, Vec3d p) {
-  const auto row = [&](int i) { return m[i][0] * p.x + m[i][1] * p.y + m[i][2] * p.z + m[i][3]; };
-  return {row(0), row(1), row(2)};
-}
-
 Appearances look_at(const TreeModel& tree, std::uint32_t primitive, const Transform& to_world,
                     const Box& all, Cutting cutting) {
   const Primitive& source = tree.primitives[primitive];

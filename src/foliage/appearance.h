@@ -44,7 +44,4 @@ enum class Cutting { none, where_it_differs };
 Appearances look_at(const TreeModel& tree, std::uint32_t primitive, const Transform& to_world,
                     const Box& all, Cutting cutting);
 
-/// Where a transform takes a point.
-Vec3d transformed(const Transform& to_world, Vec3d p);
-
 }  // namespace leafhull

@@ -7,7 +7,6 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <string_view>
 #include <utility>
 
 #include "colour/colour.h"

@@ -71,8 +71,7 @@ const NameSign& place_sign(const NameSign& mesh, const NameSign& node) {
 
 /// Whether a transform is finite and invertible.
 bool stands(const Transform& m) {
-  const auto row = [&](int i) { return Vec3d{m[i][0], m[i][1], m[i][2]}; };
-  const double volume = dot(row(0), cross(row(1), row(2)));
+  const double volume = dot(Vec3d{m[0][0], m[0][1], m[0][2]}, cofactors(m)[0]);
   return std::isfinite(volume + m[0][3] + m[1][3] + m[2][3]) && volume != 0;
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "colour/colour.h"
 #include "foliage/asked.h"
@@ -115,7 +114,7 @@ void warn_of_doubt(const std::vector<Candidate>& list, bool is_guess, LeafChoice
   const Candidate* second = second_reading(list);
   const bool is_close = second && second->told.evidence.total() > kSurelyNot;
   if (!is_guess && !is_close && least_sure(list) >= kSure) return;
-  std::string warning = "what the leaves are is a guess: " + taken_words(list);
+  std::string warning = "the choice of leaves is a guess: " + taken_words(list);
   if (second) {
     warning += "; " + label(second->told) + " could be too: " + option_for(second->told);
   } else {
@@ -157,7 +156,7 @@ void use_alpha(const TreeModel& tree, const Candidates& candidates, LeafChoice& 
     }
     choice.cut_out[material] = true;
     choice.warnings.push_back("material '" + printable_name(candidate.told.material) +
-                              "' says it is opaque, and its texture has holes: they are cut out");
+                              "' says it is opaque, but its texture has holes: they are cut out");
   }
 }
 

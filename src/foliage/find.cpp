@@ -39,7 +39,7 @@ std::string list_names(const std::vector<LeafCandidate>& candidates) {
     }
   }
   if (left_out > 0) list += " and " + std::to_string(left_out) + " more";
-  return list.empty() ? "nothing in it has a name" : "it holds " + list;
+  return list.empty() ? "it holds no names" : "it holds " + list;
 }
 
 }  // namespace
@@ -59,10 +59,9 @@ void throw_no_leaves(const TreeModel& tree, const LeafChoice& choice, const Leaf
   }
   const auto likeliest = std::ranges::max_element(
       choice.candidates, {}, [](const LeafCandidate& c) { return c.evidence.total(); });
-  throw Error(
-      ErrorCode::input,
-      "no leaves in " + file + ": neither names nor holes, colours or shapes tell any; " + names,
-      "If they are " + label(*likeliest) + ", say so with " + option_for(*likeliest) + ".");
+  throw Error(ErrorCode::input,
+              "no leaves in " + file + ": names, holes, colours and shapes show none; " + names,
+              "If they are " + label(*likeliest) + ", say so with " + option_for(*likeliest) + ".");
 }
 
 LeafSet find_leaves(const TreeModel& tree, const LeafOptions& options) {

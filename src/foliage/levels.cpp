@@ -2,7 +2,6 @@
 #include "foliage/levels.h"
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <map>
 #include <optional>

@@ -8,7 +8,6 @@
 #include <array>
 #include <cmath>
 #include <numeric>
-#include <span>
 
 #include "foliage/appearance.h"
 #include "leaves/leaf_components.h"
@@ -94,28 +93,6 @@ Piece piece_of(const Sums& sums, const Box& all) {
   return piece;
 }
 
-/// The numbers of triangles by piece, ascending.
-class TrianglesOfPieces {
- public:
-  explicit TrianglesOfPieces(const std::vector<std::uint32_t>& piece_of)
-      : ends_(piece_of.empty() ? 0 : std::ranges::max(piece_of) + std::size_t{1}),
-        triangles_(piece_of.size()) {
-    for (const std::uint32_t piece : piece_of) ++ends_[piece];
-    std::exclusive_scan(ends_.begin(), ends_.end(), ends_.begin(), std::size_t{0});
-    for (std::uint32_t t = 0; t < piece_of.size(); ++t) triangles_[ends_[piece_of[t]]++] = t;
-  }
-
-  std::size_t size() const { return ends_.size(); }
-  std::span<const std::uint32_t> operator[](std::size_t piece) const {
-    const std::size_t begin = piece == 0 ? 0 : ends_[piece - 1];
-    return std::span(triangles_).subspan(begin, ends_[piece] - begin);
-  }
-
- private:
-  std::vector<std::size_t> ends_;
-  std::vector<std::uint32_t> triangles_;
-};
-
 std::vector<Shown> shown_by(const TreeModel& tree, const Primitive& primitive) {
   const SurfaceColour colour(tree, primitive, kSamples);
   const std::size_t count = primitive.triangles.size();
@@ -137,7 +114,9 @@ Surface survey(const TreeModel& tree, const Primitive& primitive, const Transfor
   surface.welded = weld_positions(primitive);
   surface.piece_of = label_pieces(primitive, surface.welded);
   surface.areas.resize(primitive.triangles.size());
-  const TrianglesOfPieces triangles(surface.piece_of);
+  std::vector<std::uint32_t> numbers(primitive.triangles.size());
+  std::iota(numbers.begin(), numbers.end(), 0u);
+  const Grouped<std::uint32_t> triangles(numbers, surface.piece_of);
   surface.pieces.resize(triangles.size());
   tbb::parallel_for(std::size_t{0}, triangles.size(), [&](std::size_t i) {
     Sums sums;

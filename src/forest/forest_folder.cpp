@@ -50,7 +50,7 @@ void remove_tiles(const fs::path& folder) {
 /// Refuses a file of another program; even a damaged file of ours holds its schema's name.
 void check_schema(const fs::path& file, std::string_view schema) {
   if (!fs::exists(file) || content_of(file).find(schema) != std::string::npos) return;
-  throw Error(ErrorCode::usage, file.string() + " belongs to no forest", kNameAnother);
+  throw Error(ErrorCode::usage, file.string() + " does not belong to a forest", kNameAnother);
 }
 
 /// Removes the shapes beside the tiles that `list` names, where they are still as written.
@@ -86,13 +86,13 @@ void ForestFolder::check_ours() const {
   if (!fs::exists(work())) {
     for (const char* name : {"tiles", "tileset.json", "forest.glb"}) {
       if (!fs::exists(folder_ / name)) continue;
-      throw Error(ErrorCode::usage, (folder_ / name).string() + " is there already", kNameAnother);
+      throw Error(ErrorCode::usage, (folder_ / name).string() + " already exists", kNameAnother);
     }
   }
   for (const fs::path& entry : entries_of(work())) {
     // Another rank writes its plan before all else, so look for a plan after listing.
     if (is_unfinished(entry.filename().string()) || fs::exists(plan())) continue;
-    throw Error(ErrorCode::usage, entry.string() + " belongs to no forest", kNameAnother);
+    throw Error(ErrorCode::usage, entry.string() + " does not belong to a forest", kNameAnother);
   }
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "forest/merge_none.h"
 
-#include <map>
 #include <string>
 
 #include "forest/forest_identity.h"
@@ -76,7 +75,7 @@ ForestSummary merge_none(const Scene& scene, const ForestOptions& options, Devic
       if (!any) {
         store.folder().remove_work();
         throw Error(ErrorCode::empty, "the forest is empty: no model has a surface",
-                    "Lower --threshold, enlarge --radius-max, or take a finer --resolution.");
+                    "Lower --threshold, enlarge --radius-max, or use a finer --resolution.");
       }
       const FileRecord file = put_file(store, kFile, [&](std::ostream& stream) {
         write_instances(shapes, scene.trees, stream);

@@ -10,6 +10,9 @@
 namespace leafhull {
 namespace {
 
+constexpr std::string_view kMergeNames[] = {"none", "canopy"};
+constexpr std::string_view kScopeNames[] = {"model", "scene"};
+
 constexpr int kMostLevels = 8;
 constexpr int kLargestTile = 512;
 constexpr int kMostParts = 1'000'000;
@@ -32,13 +35,13 @@ void check_contradictions(const ForestOptions& forest) {
       finish(forest.finish, "--finish"), range(forest.range.has_value(), "--tile-range"),
       single(forest.single.has_value(), "--single"), levels(forest.levels > 1, "--levels"),
       tile(forest.tile.has_value(), "--tile"), apart(forest.merge == Merge::none, "--merge none");
-  refuse_both(resume, restart, "Go on with what DIR holds, or begin anew.");
+  refuse_both(resume, restart, "Continue the forest in DIR, or start over.");
   refuse_both(finish, range, "Compute every part first, then finish once.");
   refuse_both(finish, restart, "--finish needs the tiles that --restart removes.");
   refuse_both(range, restart, "A part would remove what others have done: empty DIR first.");
-  refuse_both(range, single, "It is made of all tiles: give it to --finish.");
+  refuse_both(range, single, "It needs all tiles: give it to --finish.");
   for (const auto& of_tiles : {levels, single, tile, range, finish}) {
-    refuse_both(apart, of_tiles, "Without --merge none there are tiles and levels.");
+    refuse_both(apart, of_tiles, "--merge none has no tiles or levels.");
   }
 }
 
@@ -60,7 +63,7 @@ void check_shape(const ForestOptions& forest) {
     refuse("--density grid is only for a single tree", "Leave it out, or add --merge none.");
   }
   if (shape.dense || shape.adaptivity > 0) {
-    refuse("tiles have neither --dense nor --adaptivity", "Leave them out, or add --merge none.");
+    refuse("tiles allow neither --dense nor --adaptivity", "Leave them out, or add --merge none.");
   }
   if (shape.hollows == Hollows::fill) {
     refuse("a tile cannot tell whether a hollow is closed",
@@ -69,6 +72,9 @@ void check_shape(const ForestOptions& forest) {
 }
 
 }  // namespace
+
+std::span<const std::string_view> names(Merge) { return kMergeNames; }
+std::span<const std::string_view> names(ControlScope) { return kScopeNames; }
 
 void describe(OptionLine& line, const TileRange&) {
   line.value = "I/N";
@@ -94,7 +100,7 @@ std::span<const ForestOptionRow> forest_table() {
           "number of levels of detail; each has voxels and R_max twice as large"),
       Row("Work", "tile", &ForestOptions::tile,
           {.low = kRootEdge, .high = kLargestTile, .step = kRootEdge}, "the edge of a tile",
-          {.unit = "voxels", .default_value = "128, less in little memory"}),
+          {.unit = "voxels", .default_value = "128, less if memory is short"}),
       Row("Work", "memory", &ForestOptions::memory, {kLeastMemory, kLargestNumber},
           "most memory that a rank may keep resident, for a canopy",
           {.unit = "bytes, or with K, M, G, T"}),

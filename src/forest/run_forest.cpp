@@ -173,10 +173,10 @@ class Run {
     if (ranks_.rank() == 0) ranks_.barrier();
     summary_.was_finished = store_->finished();
     if (summary_.was_finished && options_.single && !store_->holds(options_.single->string())) {
-      throw Error(
-          ErrorCode::usage,
-          folder_.string() + " holds this forest, finished, without " + options_.single->string(),
-          "--restart starts over.");
+      throw Error(ErrorCode::usage,
+                  folder_.string() + " already holds this forest, finished, without " +
+                      options_.single->string(),
+                  "--restart starts over.");
     }
     return !summary_.was_finished;
   }
@@ -297,7 +297,7 @@ class Run {
       throw Error(ErrorCode::usage,
                   std::to_string(summary_.remaining) + " of " + std::to_string(summary_.tiles) +
                       " tiles are still to do in " + folder_.string(),
-                  "Run the missing --tile-range parts, or go on with --resume.");
+                  "Run the missing --tile-range parts, or continue with --resume.");
     }
     watch_.start("finish");
     tell("finish", summary_.tiles, summary_.tiles);

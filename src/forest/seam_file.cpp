@@ -53,7 +53,7 @@ class Reader {
 
   [[noreturn]] void fail() const {
     throw Error(ErrorCode::input, where_ + " is damaged: it is not the seam of a tile",
-                "Remove it: with --resume its tile is computed again.");
+                "Remove it, and --resume computes its tile again.");
   }
 
  private:

@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kTileSchema = "leafhull-forest-tile/2";
 constexpr const char* kStartOver = "--restart starts over; or name another folder.";
-constexpr const char* kGoOn = "--resume goes on, --restart starts over.";
+constexpr const char* kGoOn = "--resume continues it, --restart starts over.";
 
 void check_writer(const std::string& writer) {
   const auto may_be = [](unsigned char c) {
@@ -103,14 +103,14 @@ void Store::open_finished(bool resume) {
   const Json manifest = unsealed_file(folder_.manifest(), kManifestSchema, kStartOver);
   check_same_forest(manifest.at("plan"), plan_, folder_.path());
   if (!resume) {
-    throw Error(ErrorCode::usage, folder_.path().string() + " holds this forest, finished",
+    throw Error(ErrorCode::usage, folder_.path().string() + " already holds this forest, finished",
                 "--resume leaves it as it is, --restart starts over; or name another folder.");
   }
   const auto check = [&](const std::string& name, const Json& record) {
     const fs::path file = folder_.path() / name;
     if (is_there(file, record)) return;
     throw Error(ErrorCode::input,
-                file.string() + " is missing or has another size than " +
+                file.string() + " is missing or does not have the size that " +
                     folder_.manifest().string() + " says",
                 kStartOver);
   };
@@ -124,9 +124,9 @@ void Store::open_finished(bool resume) {
 TileRecord Store::tile_of(const std::string& line, const std::string& where) const {
   const Json json =
       unsealed(line, kTileSchema, where,
-               "Remove that journal: its tiles are computed again. --restart starts over.");
+               "Remove that journal to compute its tiles again. --restart starts over.");
   if (json.at("plan") != plan_checksum_) {
-    throw Error(ErrorCode::usage, where + " is of another forest", kStartOver);
+    throw Error(ErrorCode::usage, where + " belongs to another forest", kStartOver);
   }
   return tile_record(json);
 }
@@ -155,8 +155,8 @@ void Store::refresh() {
   if (lost == 0) return;
   warnings_.push_back(
       std::to_string(lost) +
-      (lost == 1 ? " tile is computed again: " : " tiles are computed again, one as ") +
-      first.string() + " is missing or has another size than it had");
+      (lost == 1 ? " tile is computed again: " : " tiles are computed again, one because ") +
+      first.string() + " is missing or its size has changed");
 }
 
 std::optional<Json> Store::control() const {
@@ -164,7 +164,7 @@ std::optional<Json> Store::control() const {
   if (!fs::exists(file)) return std::nullopt;
   const Json kept = unsealed_file(file, kControlSchema, kStartOver);
   if (kept.at("plan") != plan_checksum_) {
-    throw Error(ErrorCode::usage, file.string() + " is of another forest", kStartOver);
+    throw Error(ErrorCode::usage, file.string() + " belongs to another forest", kStartOver);
   }
   return kept.at("levels");
 }

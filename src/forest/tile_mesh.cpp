@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cstring>
 #include <system_error>
-#include <utility>
 
 #include "leafhull/error.h"
 #include "output/mesh_vertex.h"
@@ -17,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kComputeAgain = "Run it again with --resume: the tile is computed again.";
+constexpr const char* kComputeAgain = "Run it again with --resume to compute the tile again.";
 
 class GlbReader {
  public:

@@ -2,7 +2,6 @@
 #include "forest/weld.h"
 
 #include <limits>
-#include <utility>
 
 #include "forest/tile_mesh.h"
 #include "leafhull/error.h"
@@ -109,7 +108,7 @@ std::vector<std::uint32_t> Weld::welded(std::size_t tile, const Seam& seam,
   for (const std::uint32_t v : welded) {
     if (v != kNowhere) continue;
     throw Error(ErrorCode::internal,
-                "tile " + name_of(tiles_[tile].record.id()) + " has a vertex of no tile",
+                "tile " + name_of(tiles_[tile].record.id()) + " has a vertex that no tile owns",
                 "Please report this with the scene and the command.");
   }
   return welded;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "input/input_error.h"
+#include "text/text.h"
 
 namespace leafhull {
 namespace {
@@ -18,13 +19,6 @@ constexpr std::array<std::string_view, 6> kTextureFolders{"textures", "texture",
 
 /// The number of names at the end of a path that are searched for.
 constexpr std::size_t kMostParts = 6;
-
-std::string lower(std::string text) {
-  std::ranges::transform(text, text.begin(), [](char c) {
-    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  });
-  return text;
-}
 
 bool has_drive(std::string_view name) {
   const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
@@ -59,11 +53,11 @@ bool is_file(const fs::path& path) {
 std::optional<fs::path> entry_of(const fs::path& folder, const std::string& name) {
   std::error_code error;
   if (fs::exists(folder / name, error)) return folder / name;
-  const std::string wanted = lower(name);
+  const std::string wanted = in_lower_case(name);
   std::optional<fs::path> found;
   for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
        entry.increment(error)) {
-    const bool fits = lower(entry->path().filename().string()) == wanted;
+    const bool fits = in_lower_case(entry->path().filename().string()) == wanted;
     if (fits && (!found || entry->path() < *found)) found = entry->path();
   }
   return found;
@@ -109,7 +103,7 @@ void Companions::require_inside(const fs::path& file) const {
   const fs::path home = fs::weakly_canonical(folder.empty() ? fs::path(".") : folder, error);
   const fs::path way = fs::weakly_canonical(file, error).lexically_relative(home);
   if (error || way.empty() || *way.begin() == "..") {
-    throw FileError("it leads out of the file's folder, which --allow-outside permits");
+    throw FileError("it leads out of the file's folder, which only --allow-outside permits");
   }
 }
 
@@ -126,13 +120,13 @@ Companions::Found Companions::find(std::string_view written) const {
     require_inside(*found);
     return {*found, in_quotes(written) +
                         (outside ? " is taken from the file's own folder: "
-                                 : " is not there; taken instead is ") +
+                                 : " does not exist; used instead is ") +
                         in_quotes(found->string())};
   }
   if (outside && !allow_outside_) {
     throw FileError(
-        "it lies outside of the file's folder, which --allow-outside permits, and there is none of "
-        "its name in it");
+        "it lies outside the file's folder, which only --allow-outside permits, and the folder has "
+        "no file of that name");
   }
   throw FileError(std::make_error_code(std::errc::no_such_file_or_directory).message());
 }

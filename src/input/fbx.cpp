@@ -4,9 +4,6 @@
 #include <string_view>
 
 #include "input/input_error.h"
-#ifdef LEAFHULL_HAS_FBX
-#include "input/fbx/fbx_file.h"
-#endif
 
 namespace leafhull {
 
@@ -19,15 +16,12 @@ bool looks_like_fbx(ByteSpan bytes) {
          head.find("FBXHeaderExtension") != std::string_view::npos;
 }
 
-TreeModel read_fbx([[maybe_unused]] ByteSpan bytes, const std::string& name,
-                   [[maybe_unused]] const Companions& companions, [[maybe_unused]] Axes axes) {
-#ifdef LEAFHULL_HAS_FBX
-  return read_fbx_file(bytes, name, companions, axes);
-#else
+#ifndef LEAFHULL_HAS_FBX
+TreeModel read_fbx(ByteSpan, const std::string& name, const Companions&, Axes) {
   input_error(name, "", "is an FBX file, and leafhull was built without ufbx, which reads them",
               "Convert it to .glb in Blender (File > Export > glTF 2.0), or build leafhull where "
               "cargo can fetch ufbx.");
-#endif
 }
+#endif
 
 }  // namespace leafhull

@@ -33,7 +33,7 @@ constexpr std::array kForeign{
             "Export the tree from there as glTF, FBX or OBJ."},
     Foreign{" .unitypackage .prefab .uasset", "", "an asset of a game engine", "",
             "Export the tree from there as glTF or FBX."},
-    Foreign{" .vdb", "", "an OpenVDB file", "", "Give the tree that it was made of."},
+    Foreign{" .vdb", "", "an OpenVDB file", "", "Give the tree that it was made from."},
     Foreign{" .zip .7z .rar .gz", "PK\x03\x04", "an archive", "", "Unpack it, and give the tree."},
 };
 

@@ -138,8 +138,7 @@ void parse_model(GltfFile& file, json document) {
 std::optional<Bytes> decode_data(const std::string& uri) {
   const std::size_t comma = uri.find(',');
   if (comma == std::string::npos) return std::nullopt;
-  std::string coding = uri.substr(0, comma);
-  std::ranges::transform(coding, coding.begin(), [](unsigned char c) { return std::tolower(c); });
+  const std::string coding = in_lower_case(uri.substr(0, comma));
   std::string data = percent_decoded(std::string_view(uri).substr(comma + 1));
   if (!coding.ends_with(";base64")) return Bytes(data.begin(), data.end());
   std::erase_if(data, [](unsigned char c) { return std::isspace(c); });
@@ -198,7 +197,7 @@ std::function<Bytes()> uri_loader(GltfFile& file, const std::string& uri,
   }
   const bool is_remote = uri.find("://") != std::string::npos && !uri.starts_with("file:");
   if (!file.companions.any() || is_remote) {
-    file.fail(place, in_quotes(uri) + " is outside the file and not looked for",
+    file.fail(place, in_quotes(uri) + " is outside the file and is not looked for",
               "Put everything into one .glb file.");
   }
   try {

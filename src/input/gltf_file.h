@@ -3,10 +3,8 @@
 
 #include <tiny_gltf.h>
 
-#include <filesystem>
 #include <functional>
 #include <map>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>

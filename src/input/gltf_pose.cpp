@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "input/gltf_accessor.h"
 
@@ -23,16 +22,11 @@ Transform product(const Transform& a, const std::array<float, 16>& columns) {
   return result;
 }
 
-double row_times(const std::array<double, 4>& row, Vec3f p) {
-  return row[0] * p.x + row[1] * p.y + row[2] * p.z + row[3];
-}
-
-Vec3d row_of(const Transform& m, int i) { return {m[i][0], m[i][1], m[i][2]}; }
-
 /// Transforms a normal by the cofactors.
 Vec3f turned(const Transform& m, Vec3f normal) {
-  const Vec3d x = row_of(m, 0), y = row_of(m, 1), z = row_of(m, 2), n(normal);
-  return Vec3f(normalized(Vec3d(dot(cross(y, z), n), dot(cross(z, x), n), dot(cross(x, y), n))));
+  const auto [x, y, z] = cofactors(m);
+  const Vec3d n(normal);
+  return Vec3f(normalized(Vec3d(dot(x, n), dot(y, n), dot(z, n))));
 }
 
 /// Adds the targets' displacements.
@@ -105,9 +99,8 @@ void bend(GltfFile& file, const tinygltf::Primitive& source, const std::vector<T
     for (auto& row : blend) {
       for (double& entry : row) entry /= sums[v];
     }
-    const Vec3f p = primitive.positions[v];
-    primitive.positions[v] =
-        Vec3f(Vec3d(row_times(blend[0], p), row_times(blend[1], p), row_times(blend[2], p)));
+    Vec3f& p = primitive.positions[v];
+    p = Vec3f(transformed(blend, Vec3d(p)));
     if (!primitive.normals.empty()) primitive.normals[v] = turned(blend, primitive.normals[v]);
   }
 }

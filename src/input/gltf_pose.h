@@ -2,7 +2,6 @@
 #pragma once
 
 #include <compare>
-#include <map>
 #include <vector>
 
 #include "input/gltf_file.h"

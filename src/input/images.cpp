@@ -8,7 +8,6 @@
 #include <array>
 #include <climits>
 #include <cstdint>
-#include <cstdlib>
 #include <memory>
 #include <string_view>
 
@@ -78,12 +77,12 @@ constexpr const char* kCutOff = "it is cut off";
 constexpr std::string_view kRead = "; PNG, JPEG, WebP, BMP and TGA are read";
 
 std::string why_unread(const Signature* signature) {
-  if (!signature) return "it is no image that is known" + std::string(kRead);
+  if (!signature) return "its format is unknown" + std::string(kRead);
   if (signature->name == "KTX2") {
-    return "it is a KTX2 image, so that its colours and holes are lost; gltf-transform "
-           "ktxdecompress IN.glb OUT.glb makes PNG of it";
+    return "it is a KTX2 image, so its colours and holes are lost; gltf-transform "
+           "ktxdecompress IN.glb OUT.glb converts it to PNG";
   }
-  return "it is of the format " + std::string(signature->name) + std::string(kRead);
+  return "its format is " + std::string(signature->name) + std::string(kRead);
 }
 
 /// The number of pixels. The height of a BMP whose rows begin at the top is negative.

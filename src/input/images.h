@@ -2,7 +2,6 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "input/file_bytes.h"
 #include "leafhull/tree.h"

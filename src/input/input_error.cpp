@@ -12,6 +12,12 @@ void input_error(std::string_view file, std::string_view place, std::string_view
   throw Error(ErrorCode::input, message + std::string(what), std::string(remedy));
 }
 
+Bytes read_named_file(const std::filesystem::path& path, std::string_view remedy) try {
+  return read_file(path, Pipes::read);
+} catch (const FileError& error) {
+  input_error(path.string(), "", std::string("cannot be read: ") + error.what(), remedy);
+}
+
 std::string hidden_meshes(std::size_t count) {
   return std::to_string(count) + (count == 1 ? " hidden mesh is" : " hidden meshes are") +
          " passed over";

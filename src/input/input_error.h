@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <string_view>
 
+#include "input/file_bytes.h"
 #include "text/text.h"
 
 namespace leafhull {
@@ -23,6 +25,9 @@ inline constexpr std::string_view kNotAllFinite =
 /// @throws Error input, always: "file: place: what", the place left out where it is empty.
 [[noreturn]] void input_error(std::string_view file, std::string_view place, std::string_view what,
                               std::string_view remedy = kExportAgain);
+
+/// The content of a file or pipe that a user named. @throws Error input.
+Bytes read_named_file(const std::filesystem::path& path, std::string_view remedy);
 
 /// "3 hidden meshes are passed over"
 std::string hidden_meshes(std::size_t count);

@@ -3,10 +3,11 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <utility>
+
+#include "text/numbers.h"
 
 namespace leafhull {
 namespace {
@@ -106,10 +107,8 @@ std::string_view trimmed(std::string_view text) {
 double finite_number(std::string_view word) {
   constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   if (word.starts_with('+') && !word.starts_with("+-")) word.remove_prefix(1);
-  double value = kNaN;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  const bool good = error == std::errc() && end == word.data() + word.size();
-  return good && std::isfinite(value) ? value : kNaN;
+  const double value = parsed<double>(word).value_or(kNaN);
+  return std::isfinite(value) ? value : kNaN;
 }
 
 }  // namespace leafhull

@@ -21,18 +21,12 @@ bool looks_like_gltf(std::string_view text) {
   return text.starts_with("glTF") || (first != std::string_view::npos && text[first] == '{');
 }
 
-Bytes read_tree_file(const std::filesystem::path& path) try {
-  return read_file(path, Pipes::read);
-} catch (const FileError& error) {
-  input_error(path.string(), "", std::string("cannot be read: ") + error.what(),
-              "Give the path of a .glb, .gltf, .fbx or .obj file that you may read.");
-}
-
 }  // namespace
 
 TreeModel read_tree(const std::filesystem::path& path, const ReadOptions& options) {
   constexpr std::string_view kFormats = "Give a .glb, .gltf, .fbx or .obj file.";
-  const Bytes bytes = read_tree_file(path);
+  const Bytes bytes =
+      read_named_file(path, "Give the path of a .glb, .gltf, .fbx or .obj file that you may read.");
   const std::string extension = lower_extension(path);
   if (bytes.empty()) input_error(path.string(), "", "is empty", kFormats);
 
@@ -48,14 +42,14 @@ TreeModel read_tree(const std::filesystem::path& path, const ReadOptions& option
   } else if (extension == ".glb" || extension == ".gltf" || extension == ".fbx") {
     input_error(path.string(), "",
                 std::string("is not ") + (extension == ".fbx" ? "an FBX" : "a glTF") +
-                    " file in spite of its name",
+                    " file despite its name",
                 kFormats);
   } else {
     if (const auto foreign = foreign_format(bytes, path)) {
       input_error(path.string(), "", "is " + foreign->name + ", which is not read",
                   foreign->remedy);
     }
-    input_error(path.string(), "", "is no glTF, FBX or OBJ file", kFormats);
+    input_error(path.string(), "", "is not a glTF, FBX or OBJ file", kFormats);
   }
   tree.path = path;
   if (options.up == Up::z) {

@@ -7,12 +7,12 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <cstdio>
 #include <span>
 #include <unordered_map>
 #include <vector>
 
 #include "leaves/union_find.h"
+#include "text/numbers.h"
 
 namespace leafhull {
 namespace {
@@ -167,14 +167,13 @@ Crown find_crown(const LeafSet& leaves) {
 }
 
 std::string stray_warning(const Crown& crown) {
-  char distance[32];
-  std::snprintf(distance, sizeof distance, "%.2g", crown.farthest / crown.box.longest_side());
+  const std::string distance = significant(crown.farthest / crown.box.longest_side(), 2);
   if (crown.strays == 1) {
-    return "1 leaf lies far from the crown, " + std::string(distance) +
-           " times the crown's longest side away; it does not count for its size";
+    return "1 leaf lies far from the crown, " + distance +
+           " times the crown's longest side away; it does not count towards its size";
   }
   return std::to_string(crown.strays) + " leaves lie far from the crown, up to " + distance +
-         " times the crown's longest side away; they do not count for its size";
+         " times the crown's longest side away; they do not count towards its size";
 }
 
 }  // namespace leafhull

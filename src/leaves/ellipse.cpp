@@ -2,7 +2,6 @@
 #include "leaves/ellipse.h"
 
 #include <algorithm>
-#include <cmath>
 #include <tuple>
 
 namespace leafhull {

@@ -122,7 +122,7 @@ FoundLeaves collect_all(const TreeModel& tree, std::span<const Instance> instanc
 }
 
 std::string untextured_warning(std::size_t count) {
-  const std::string why = " no usable texture coordinates or nothing of the texture; ";
+  const std::string why = " no usable texture coordinates or no part of the texture; ";
   if (count == 1) return "1 leaf has" + why + "its ellipse is that of its triangles";
   return std::to_string(count) + " leaves have" + why +
          "their ellipses are those of their triangles";

@@ -91,18 +91,6 @@ std::vector<Vec3f> distinct_positions(const Primitive& primitive,
 
 }  // namespace
 
-FaceGroups::FaceGroups(std::span<const Face> faces, std::span<const std::uint32_t> labels)
-    : faces_(faces.size()) {
-  const std::size_t label_count = labels.empty() ? 0 : std::ranges::max(labels) + std::size_t{1};
-  std::vector<std::size_t> next(label_count + 1);
-  for (const std::uint32_t label : labels) ++next[label + 1];
-  for (std::size_t label = 0; label < label_count; ++label) {
-    if (next[label + 1] > 0) ends_.push_back(next[label] + next[label + 1]);
-    next[label + 1] += next[label];
-  }
-  for (std::size_t i = 0; i < faces.size(); ++i) faces_[next[labels[i]]++] = faces[i];
-}
-
 std::vector<std::uint32_t> weld_positions(const Primitive& primitive) {
   struct Stored {
     std::uint64_t xy;

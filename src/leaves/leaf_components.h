@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <compare>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -21,22 +23,33 @@ struct Face {
   auto operator<=>(const Face&) const = default;
 };
 
-/// Faces in groups, each group side by side.
-class FaceGroups {
+/// Things in groups, each group side by side.
+template <class Thing>
+class Grouped {
  public:
-  /// Faces with equal labels form a group and keep their order; groups go by label.
-  FaceGroups(std::span<const Face> faces, std::span<const std::uint32_t> labels);
+  /// Things with equal labels form a group and keep their order; groups go by label.
+  Grouped(std::span<const Thing> things, std::span<const std::uint32_t> labels)
+      : things_(things.size()) {
+    std::vector<std::size_t> next(labels.empty() ? 1 : std::ranges::max(labels) + std::size_t{2});
+    for (const std::uint32_t label : labels) ++next[label + 1];
+    for (std::size_t label = 1; label < next.size(); ++label) {
+      if (next[label] > 0) ends_.push_back(next[label - 1] + next[label]);
+      next[label] += next[label - 1];
+    }
+    for (std::size_t i = 0; i < things.size(); ++i) things_[next[labels[i]]++] = things[i];
+  }
 
   std::size_t size() const { return ends_.size(); }
-  std::span<const Face> operator[](std::size_t group) const {
+  std::span<const Thing> operator[](std::size_t group) const {
     const std::size_t begin = group == 0 ? 0 : ends_[group - 1];
-    return std::span(faces_).subspan(begin, ends_[group] - begin);
+    return std::span(things_).subspan(begin, ends_[group] - begin);
   }
 
  private:
-  std::vector<Face> faces_;
+  std::vector<Thing> things_;
   std::vector<std::size_t> ends_;
 };
+using FaceGroups = Grouped<Face>;
 
 /// A primitive whose vertices at bit-equal positions are one. Everything is in an order that
 /// depends on the geometry alone, so that sums over it do too.

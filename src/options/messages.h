@@ -5,9 +5,6 @@
 
 namespace leafhull {
 
-/// The fewest digits that give the same number back.
-std::string number_text(double value);
-
 /// @throws Error usage.
 [[noreturn]] void refuse_option(const std::string& message, const std::string& remedy);
 

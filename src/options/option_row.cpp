@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "leafhull/option_row.h"
 
-#include <array>
-#include <charconv>
 #include <cmath>
 
 #include "leafhull/error.h"
 #include "options/messages.h"
+#include "text/choice.h"
+#include "text/numbers.h"
 
 namespace leafhull {
 namespace {
@@ -71,12 +71,6 @@ void check_number(const OptionLine& line, double value, Writer text) {
 
 }  // namespace
 
-std::string number_text(double value) {
-  std::array<char, 32> buffer;
-  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;
-  return {buffer.data(), end};
-}
-
 void refuse_option(const std::string& message, const std::string& remedy) {
   throw Error(ErrorCode::usage, message, remedy);
 }
@@ -104,7 +98,7 @@ void describe(OptionLine& line, bool value) {
 
 void describe(OptionLine& line, int value) { describe_number(line, "N", value, whole_text); }
 
-void describe(OptionLine& line, double value) { describe_number(line, "X", value, number_text); }
+void describe(OptionLine& line, double value) { describe_number(line, "X", value, shortest); }
 
 void describe(OptionLine& line, std::uint64_t value) {
   describe_number(line, "N", static_cast<double>(value), whole_text);
@@ -121,11 +115,7 @@ void describe_names(OptionLine& line, std::span<const std::string_view> names, s
 
 void describe(OptionLine& line, const std::string& value) {
   fill(line.value, "NAME");
-  if (line.range.empty()) {
-    for (const std::string_view choice : line.choices) {
-      line.range.append(line.range.empty() ? "" : ", ").append(choice);
-    }
-  }
+  if (line.range.empty()) line.range = joined(line.choices, ", ");
   fill(line.default_value, value);
 }
 
@@ -147,15 +137,15 @@ void describe(OptionLine& line, const std::vector<std::filesystem::path>&) {
 
 void describe(OptionLine& line, const Vec2d&) { fill(line.value, "WxD"); }
 
-void check_value(const OptionLine& line, double value) { check_number(line, value, number_text); }
+void check_value(const OptionLine& line, double value) { check_number(line, value, shortest); }
 
 void check_value(const OptionLine& line, int value) {
   check_number(line, value, whole_text);
   if (value % line.step == 0) return;
   const int below = value - value % line.step;
-  refuse_option(
-      flag(line) + " " + std::to_string(value) + " is no multiple of " + std::to_string(line.step),
-      "Give " + std::to_string(below) + " or " + std::to_string(below + line.step) + ".");
+  refuse_option(flag(line) + " " + std::to_string(value) + " is not a multiple of " +
+                    std::to_string(line.step),
+                "Give " + std::to_string(below) + " or " + std::to_string(below + line.step) + ".");
 }
 
 void check_value(const OptionLine& line, std::uint64_t value) {
@@ -176,7 +166,7 @@ void check_value(const OptionLine& line, const std::vector<std::string>& value) 
 
 void check_name(const OptionLine& line, std::size_t value) {
   if (value < line.choices.size()) return;
-  refuse_option(flag(line) + " holds no value of its kind", "Give one of " + line.range + ".");
+  refuse_option(flag(line) + " has an unknown value", "Give one of " + line.range + ".");
 }
 
 }  // namespace leafhull

@@ -4,6 +4,7 @@
 #include "leafhull/error.h"
 #include "leafhull/options.h"
 #include "options/messages.h"
+#include "text/numbers.h"
 
 namespace leafhull {
 namespace {
@@ -90,7 +91,7 @@ void check_contradictions(const Options& options) {
                   "Give one of the three.");
   }
   if (options.adaptivity > 0 && options.mesher != Mesher::vdb) {
-    refuse_option("--adaptivity " + number_text(options.adaptivity) + " is not for --mesher " +
+    refuse_option("--adaptivity " + shortest(options.adaptivity) + " does not apply to --mesher " +
                       std::string(name(options.mesher)),
                   "Give --mesher vdb or leave out one of the two.");
   }
@@ -108,8 +109,8 @@ void check_contradictions(const Options& options) {
 void check_band(const Options& options) {
   const auto upright = [](const auto& low, const auto& high, const std::string& unit) {
     if (!low || !high || *low <= *high) return;
-    const std::string least = number_text(*low) + unit;
-    refuse_option("--band-high " + number_text(*high) + unit + " is below --band-low " + least,
+    const std::string least = shortest(*low) + unit;
+    refuse_option("--band-high " + shortest(*high) + unit + " is below --band-low " + least,
                   "Give a --band-high of at least " + least + ".");
   };
   upright(options.band_low, options.band_high, "");

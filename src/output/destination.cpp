@@ -89,4 +89,27 @@ fs::path resolve_destination(const fs::path& name) {
   return place;
 }
 
+void Destinations::add(const fs::path& file) {
+  const fs::path destination = resolve_destination(file);
+  std::error_code unreadable;
+  if (destination == fs::weakly_canonical(input_, unreadable)) {
+    throw Error(ErrorCode::usage, "the output " + file.string() + " is the input itself",
+                "Name another file.");
+  }
+  const auto [first, is_new] = names_.emplace(destination, file);
+  if (is_new) return;
+  throw Error(
+      ErrorCode::usage,
+      "the outputs " + first->second.string() + " and " + file.string() + " are the same file",
+      "Name each output differently.");
+}
+
+void refuse_extension(const fs::path& file, const std::string& extension,
+                      const std::string& remedy) {
+  throw Error(ErrorCode::usage,
+              extension.empty() ? "the output " + file.string() + " has no extension"
+                                : "unknown extension " + extension + " of " + file.string(),
+              remedy);
+}
+
 }  // namespace leafhull

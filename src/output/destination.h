@@ -2,6 +2,9 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
+#include <string>
+#include <utility>
 
 namespace leafhull {
 
@@ -9,5 +12,22 @@ namespace leafhull {
 /// create or replace; it need not exist yet.
 /// @throws Error output: its folder does not exist or is not writable.
 std::filesystem::path resolve_destination(const std::filesystem::path& name);
+
+/// The files that a run is to write: none is its input, and none is written twice.
+class Destinations {
+ public:
+  explicit Destinations(std::filesystem::path input) : input_(std::move(input)) {}
+
+  /// @throws Error usage: `file` is the input or was added before; output: as above.
+  void add(const std::filesystem::path& file);
+
+ private:
+  std::filesystem::path input_;
+  std::map<std::filesystem::path, std::filesystem::path> names_;  ///< by destination
+};
+
+/// @throws Error usage, always: the file has no extension, or `extension`, which says nothing.
+[[noreturn]] void refuse_extension(const std::filesystem::path& file, const std::string& extension,
+                                   const std::string& remedy);
 
 }  // namespace leafhull

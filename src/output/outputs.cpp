@@ -5,13 +5,10 @@
 #include <array>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <limits>
-#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -20,11 +17,14 @@
 #include "output/destination.h"
 #include "output/file_stream.h"
 #include "output/mesh_vertex.h"
+#include "output/report.h"
 #include "output/transaction.h"
 #include "output/vdb.h"
 #include "output/writers.h"
 #include "surface/density_grid.h"
+#include "text/choice.h"
 #include "text/file_name.h"
+#include "text/numbers.h"
 
 namespace leafhull {
 namespace {
@@ -60,15 +60,10 @@ const ShapeFormat& format_of(const fs::path& file) {
                 "Name a file, such as shape.glb.");
   }
   const std::string extension = lower_extension(file);
-  std::string known;
-  for (const ShapeFormat& format : kShapeFormats) {
-    if (format.extension == extension) return format;
-    known += (known.empty() ? "" : ", ") + std::string(format.extension);
-  }
-  throw Error(ErrorCode::usage,
-              extension.empty() ? "the output " + file.string() + " has no extension"
-                                : "unknown extension " + extension + " of " + file.string(),
-              "Use one of " + known + ".");
+  const auto* format = std::ranges::find(kShapeFormats, extension, &ShapeFormat::extension);
+  if (format != kShapeFormats.end()) return *format;
+  refuse_extension(file, extension,
+                   "Use one of " + joined(kShapeFormats, ", ", &ShapeFormat::extension) + ".");
 }
 
 void check_extension(const fs::path& file, std::string_view what, std::string_view extension) {
@@ -79,13 +74,6 @@ void check_extension(const fs::path& file, std::string_view what, std::string_vi
               "Name a " + std::string(extension) + " file.");
 }
 
-void refuse_input(const fs::path& file, const fs::path& destination, const fs::path& input) {
-  std::error_code unreadable;
-  if (destination != fs::weakly_canonical(input, unreadable)) return;
-  throw Error(ErrorCode::usage, "the output " + file.string() + " is the input itself",
-              "Name another file.");
-}
-
 bool to_standard_output(const std::optional<fs::path>& file) { return file == kStandardOutput; }
 
 std::vector<fs::path> named_files(const OutputFiles& files) {
@@ -94,14 +82,6 @@ std::vector<fs::path> named_files(const OutputFiles& files) {
   if (files.field) named.push_back(*files.field);
   if (files.report && !to_standard_output(files.report)) named.push_back(*files.report);
   return named;
-}
-
-/// Adds the time of writing all files except the report; the total stays last.
-std::vector<StageTime> with_write(std::vector<StageTime> times, double seconds) {
-  if (times.empty()) return times;
-  times.back().seconds += seconds;
-  times.insert(times.end() - 1, {"write", seconds});
-  return times;
 }
 
 /// The distance between adjacent floats at the outermost vertex.
@@ -130,18 +110,8 @@ OutputPlan plan_outputs(OutputFiles files, const fs::path& input) {
     check_extension(*files.report, "the report", ".json");
   }
 
-  std::map<fs::path, fs::path> name_of_destination;
-  for (const fs::path& file : named_files(files)) {
-    const fs::path destination = resolve_destination(file);
-    refuse_input(file, destination, input);
-    const auto [first, is_new] = name_of_destination.emplace(destination, file);
-    if (!is_new) {
-      throw Error(
-          ErrorCode::usage,
-          "the outputs " + first->second.string() + " and " + file.string() + " are the same file",
-          "Name each output differently.");
-    }
-  }
+  Destinations destinations(input);
+  for (const fs::path& file : named_files(files)) destinations.add(file);
   return OutputPlan(std::move(files));
 }
 
@@ -157,12 +127,9 @@ std::vector<std::string> rounding_warnings(const OutputPlan& plan, const Shape& 
   std::vector<std::string> warnings;
   for (const fs::path& file : rounded) {
     if (step <= kVisible * voxel) break;
-    std::array<char, 160> text;
-    std::snprintf(text.data(), text.size(),
-                  ": so far from the origin its floats are %.2g apart, and a voxel is %.2g; .glb, "
-                  ".gltf, .obj, .ply and .vdb shapes keep their form",
-                  step, voxel);
-    warnings.push_back(file.string() + text.data());
+    warnings.push_back(file.string() + ": so far from the origin its floats are " +
+                       significant(step, 2) + " apart, and a voxel is " + significant(voxel, 2) +
+                       "; .glb, .gltf, .obj, .ply and .vdb shapes keep their form");
   }
   return warnings;
 }
@@ -187,7 +154,7 @@ void write_outputs(const OutputPlan& plan, const Shape& shape, const RunDescript
   if (files.report) {
     Report written = shape.report;
     const std::chrono::duration<double> seconds = Clock::now() - begin;
-    written.seconds = with_write(std::move(written.seconds), seconds.count());
+    if (!written.seconds.empty()) add_stage(written.seconds, "write", seconds.count());
     const std::string report = report_json(written, run);
     if (to_standard_output(files.report)) {
       write_to_standard_output(report);
@@ -216,7 +183,7 @@ std::span<const OutputOptionRow> output_table() {
 
 void check_output(const fs::path& file, std::string_view extension, const fs::path& input) {
   check_extension(file, "the result", extension);
-  refuse_input(file, resolve_destination(file), input);
+  Destinations(input).add(file);
 }
 
 void write_file(const fs::path& file, std::string_view bytes) {

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -95,6 +94,12 @@ Json seconds_object(const std::vector<StageTime>& times) {
     seconds[key] = seconds.value(key, 0.0) + time.seconds;
   }
   return seconds;
+}
+
+void add_stage(std::vector<StageTime>& times, const std::string& stage, double seconds) {
+  if (times.empty()) times.push_back({"total", 0});
+  times.back().seconds += seconds;
+  times.insert(times.end() - 1, {stage, seconds});
 }
 
 Json report_object(const Report& report, const RunDescription& run) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -64,6 +63,9 @@ nlohmann::ordered_json options_object(const Options& options);
 
 /// Seconds by stage; runs of the same stage are summed.
 nlohmann::ordered_json seconds_object(const std::vector<StageTime>& times);
+
+/// Adds a stage before the total, and to it. `times` ends with the total or is empty.
+void add_stage(std::vector<StageTime>& times, const std::string& stage, double seconds);
 
 /// The report as `report_json` prints it.
 nlohmann::ordered_json report_object(const Report& report, const RunDescription& run);

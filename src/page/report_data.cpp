@@ -5,9 +5,7 @@
 #include <array>
 #include <cmath>
 #include <string>
-#include <string_view>
 
-#include "page/claims_data.h"
 #include "page/figures.h"
 #include "page/pictures_data.h"
 #include "page/typeset.h"
@@ -15,6 +13,7 @@
 #include "study/numbers.h"
 #include "study/study_plan.h"
 #include "study/verdicts.h"
+#include "text/choice.h"
 
 namespace leafhull {
 namespace {
@@ -26,6 +25,66 @@ constexpr std::size_t kIsotropic = static_cast<std::size_t>(Method::isotropic);
 std::string duration_text(double seconds) {
   if (seconds < 100) return fixed(seconds, 1) + " s";
   return fixed(seconds / 60, 1) + " min";
+}
+
+// Claims
+
+/// An outcome and its wording.
+Json mark(Outcome outcome) { return {{"outcome", name(outcome)}, {"word", in_words(outcome)}}; }
+
+std::string tally(const ReadingStudy& reading) {
+  const auto holds = std::ranges::count(reading.verdicts, Outcome::holds, &Verdict::outcome);
+  return std::to_string(holds) + " of " + std::to_string(reading.verdicts.size()) + " hold";
+}
+
+Json verdict_data(const Verdict& verdict) {
+  Json data = mark(verdict.outcome);
+  data["number"] = verdict.number;
+  data["claim"] = typeset(verdict.claim);
+  data["test"] = typeset(verdict.test);
+  data["figures"] = typeset(verdict.figures);
+  data["paper"] = typeset(verdict.paper);
+  return data;
+}
+
+Json cell(const TreeStudy& tree, std::size_t claim) {
+  Json data = mark(tree.readings.front().verdicts.at(claim).outcome);
+  const auto holds = std::ranges::count_if(tree.readings, [&](const ReadingStudy& reading) {
+    return reading.verdicts.at(claim).outcome == Outcome::holds;
+  });
+  data["tree"] = tree.name;
+  data["held"] = std::to_string(holds);
+  data["of"] = std::to_string(tree.readings.size());
+  return data;
+}
+
+/// The summary: each claim with its outcome on every tree in the first reading, and in how many
+/// readings it holds there.
+Json claims_data(const Study& study) {
+  Json claims = Json::array();
+  const std::vector<Verdict>& first = study.trees.front().readings.front().verdicts;
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    Json cells = Json::array();
+    for (const TreeStudy& tree : study.trees) cells.push_back(cell(tree, i));
+    claims.push_back({{"number", first[i].number},
+                      {"claim", typeset(first[i].claim)},
+                      {"cells", std::move(cells)}});
+  }
+  return claims;
+}
+
+/// The verdicts of one tree, reading by reading.
+Json readings_data(const TreeStudy& tree) {
+  Json readings = Json::array();
+  for (const ReadingStudy& reading : tree.readings) {
+    Json verdicts = Json::array();
+    for (const Verdict& verdict : reading.verdicts) verdicts.push_back(verdict_data(verdict));
+    readings.push_back({{"reading", reading_name(reading.reading)},
+                        {"own", readings.empty()},
+                        {"tally", tally(reading)},
+                        {"verdicts", std::move(verdicts)}});
+  }
+  return readings;
 }
 
 // Table 1
@@ -126,7 +185,7 @@ Json figure_rows(const ParameterFigures& figures, const ReadingStudy& own) {
     const auto text = [&](Count count) {
       return row.empty ? std::string(kNoSurface) : grouped(count(row));
     };
-    rows.push_back({{"value", shortest(row.*figures.value)},
+    rows.push_back({{"value", significant(row.*figures.value, 4)},
                     {"dilated", text(dilated)},
                     {"off_site", text(off_site)}});
   }
@@ -135,8 +194,7 @@ Json figure_rows(const ParameterFigures& figures, const ReadingStudy& own) {
 
 Json curve_data(const ParameterFigures& figures, const std::string& svg, const std::string& tree) {
   return plot_data(svg, "Curves of the dilated voxels and off-site vertices of " + tree +
-                            " over the " + std::string(figures.axis) +
-                            "; the numbers stand below.");
+                            " over the " + std::string(figures.axis) + "; the numbers are below.");
 }
 
 Json parameters(const TreeStudy& tree, const TreePlots* plots) {
@@ -210,8 +268,8 @@ Json band_data(const TreeStudy& tree, const TreePlots* plots) {
   const auto lost = [&](const StudyRow& row) {
     return fixed(100 * share_lost(row, tree.leaf_vertices), 2) + "%";
   };
-  data["fit"] = {{"threshold", shortest(band.threshold)},
-                 {"leaf_scale", shortest(band.leaf_scale)},
+  data["fit"] = {{"threshold", significant(band.threshold, 4)},
+                 {"leaf_scale", significant(band.leaf_scale, 4)},
                  {"isotropic_lost", lost(band.isotropic)},
                  {"uncontrolled_lost", lost(band.uncontrolled)},
                  {"groups", band_groups(band, tree.leaf_vertices)},
@@ -219,7 +277,7 @@ Json band_data(const TreeStudy& tree, const TreePlots* plots) {
   if (plots != nullptr) {
     data["fit"]["plot"] = plot_data(
         plots->band, "The dilated voxels of " + tree.name +
-                         " over its off-site vertices as the band moves; the numbers stand below.");
+                         " over its off-site vertices as the band moves; the numbers are below.");
   }
   return data;
 }
@@ -249,10 +307,8 @@ Json tree_data(const TreeStudy& tree, std::size_t index, const TreePlots* plots)
 
 nlohmann::json report_data(const Study& study, std::span<const TreePlots> plots) {
   Json trees = Json::array();
-  std::string names;
   for (std::size_t i = 0; i < study.trees.size(); ++i) {
     trees.push_back(tree_data(study.trees[i], i, plots.empty() ? nullptr : &plots[i]));
-    names += (names.empty() ? "" : ", ") + study.trees[i].name;
   }
   const std::vector<ReadingStudy>& first = study.trees.front().readings;
   return {{"version", study.version},
@@ -261,7 +317,7 @@ nlohmann::json report_data(const Study& study, std::span<const TreePlots> plots)
           {"device", study.device},
           {"duration", duration_text(study.seconds)},
           {"command", study.command},
-          {"names", names},
+          {"names", joined(study.trees, ", ", &TreeStudy::name)},
           {"tree_count",
            study.trees.size() == 1 ? "one tree" : std::to_string(study.trees.size()) + " trees"},
           {"own_reading", reading_name(first.front().reading)},

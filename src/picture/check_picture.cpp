@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <string>
 
 #include "leafhull/error.h"
 #include "pipeline/memory.h"
+#include "text/numbers.h"
 
 namespace leafhull {
 namespace {
@@ -26,11 +26,11 @@ void check_available(const PictureOptions& options, double bytes, double availab
   const double shrink = std::sqrt(kToSpare * available / needed);
   const auto side = [&](int full) { return std::max(1, static_cast<int>(full * shrink)); };
   const std::string largest = size_text(side(options.width), side(options.height));
-  char text[160];
-  std::snprintf(text, sizeof text, " pixels needs about %.3g GiB, and %.3g GiB%s are available",
-                needed / kGiB, available / kGiB, of.c_str());
   throw Error(
-      ErrorCode::usage, "a picture of " + size_text(options.width, options.height) + text,
+      ErrorCode::usage,
+      "a picture of " + size_text(options.width, options.height) + " pixels needs about " +
+          significant(needed / kGiB, 3) + " GiB, and " + significant(available / kGiB, 3) + " GiB" +
+          of + " are available",
       "The largest of this shape that fits is about " + largest + " (--size " + largest + ").");
 }
 

@@ -30,14 +30,18 @@ VoxelRay DensityTarget::in_voxels(Vec3f position, Vec3f direction) const {
   return {Vec3f(Vec3d(position) * voxels_ + origin_), direction};
 }
 
-void DensityTarget::closest(std::span<const render::Ray> rays,
-                            std::span<render::Spot> spots) const {
+std::vector<VoxelRay> DensityTarget::in_voxels(std::span<const render::Ray> rays) const {
   std::vector<VoxelRay> voxel_rays(rays.size());
-  std::vector<VoxelHit> hits(rays.size());
   tbb::parallel_for(std::size_t{0}, rays.size(), [&](std::size_t i) {
     voxel_rays[i] = in_voxels(rays[i].origin, rays[i].direction);
   });
-  surface_->caster().closest(voxel_rays, hits);
+  return voxel_rays;
+}
+
+void DensityTarget::closest(std::span<const render::Ray> rays,
+                            std::span<render::Spot> spots) const {
+  std::vector<VoxelHit> hits(rays.size());
+  surface_->caster().closest(in_voxels(rays), hits);
   const auto voxels = static_cast<float>(voxels_);
   tbb::parallel_for(std::size_t{0}, rays.size(), [&](std::size_t i) {
     render::Spot& spot = spots[i];
@@ -58,13 +62,9 @@ void DensityTarget::closest(std::span<const render::Ray> rays,
 
 void DensityTarget::occluded(std::span<const render::Ray> rays, float reach,
                              std::span<std::uint8_t> answers) const {
-  std::vector<VoxelRay> voxel_rays(rays.size());
   std::vector<float> blocked(rays.size());
-  tbb::parallel_for(std::size_t{0}, rays.size(), [&](std::size_t i) {
-    voxel_rays[i] = in_voxels(rays[i].origin, rays[i].direction);
-  });
-  surface_->caster().blocked(voxel_rays, kHard * threshold(), reach * static_cast<float>(voxels_),
-                             blocked);
+  surface_->caster().blocked(in_voxels(rays), kHard * threshold(),
+                             reach * static_cast<float>(voxels_), blocked);
   for (std::size_t i = 0; i < rays.size(); ++i) answers[i] = blocked[i] > 0;
 }
 

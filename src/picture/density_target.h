@@ -2,6 +2,8 @@
 #pragma once
 
 #include <memory>
+#include <span>
+#include <vector>
 
 #include "pipeline/direct_surface.h"
 #include "render/surface.h"
@@ -27,6 +29,7 @@ class DensityTarget final : public render::Target, public render::Surroundings {
  private:
   float threshold() const;
   VoxelRay in_voxels(Vec3f position, Vec3f direction) const;
+  std::vector<VoxelRay> in_voxels(std::span<const render::Ray> rays) const;
 
   std::shared_ptr<const DirectSurface> surface_;
   Vec3d origin_;   ///< the scene's, voxels from the lattice's anchor

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <ranges>
 #include <string>
@@ -16,6 +15,7 @@
 #include "picture/parts.h"
 #include "picture/side_by_side.h"
 #include "render/contact_sheet.h"
+#include "text/numbers.h"
 
 namespace leafhull {
 namespace {
@@ -32,10 +32,8 @@ constexpr std::array<Row, 3> kRows{
 
 /// With one decimal as in the paper, or with as many as needed.
 std::string decimal(double value) {
-  char text[32];
   const bool one = std::abs(10 * value - std::round(10 * value)) < 1e-6;
-  std::snprintf(text, sizeof text, one ? "%.1f" : "%.3g", value);
-  return text;
+  return one ? fixed(value, 1) : significant(value, 3);
 }
 
 std::string parameters(const Report& report) {
@@ -81,10 +79,7 @@ Frame frame_of_rows(const TreeModel& tree, const LeafSet& leaves, Plate plate,
     radius = std::max(radius, radius_max_in_model_units(leaves, resolved));
   }
   Frame frame = frame_of(leaves, radius);
-  for (const Instance& instance : tree.instances) {
-    const std::vector<Vec3d> points = render::world_positions(tree, instance);
-    frame.points.insert(frame.points.end(), points.begin(), points.end());
-  }
+  add_positions(tree, tree.instances, frame);
   return frame;
 }
 

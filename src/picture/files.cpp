@@ -2,8 +2,6 @@
 #include "picture/files.h"
 
 #include <algorithm>
-#include <map>
-#include <system_error>
 
 #include "leafhull/error.h"
 #include "output/destination.h"
@@ -17,21 +15,6 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kDigits = 4;
 
-void refuse_input(const fs::path& file, const fs::path& destination, const fs::path& input) {
-  std::error_code unreadable;
-  if (destination != fs::weakly_canonical(input, unreadable)) return;
-  throw Error(ErrorCode::usage, "the output " + file.string() + " is the input itself",
-              "Name another file.");
-}
-
-[[noreturn]] void refuse_extension(const fs::path& file) {
-  const std::string extension = file.extension().string();
-  throw Error(ErrorCode::usage,
-              extension.empty() ? "the output " + file.string() + " has no extension"
-                                : "unknown extension " + extension + " of " + file.string(),
-              "Use .png or .exr, or of a turntable .mp4 or .webp.");
-}
-
 void add_film(const PictureFiles& files, FilePlan& plan) {
   plan.film_was_asked_for = !plan.films.empty();
   if (files.frames == 0 || plan.png.empty() || plan.film_was_asked_for) return;
@@ -44,7 +27,8 @@ void add_film(const PictureFiles& files, FilePlan& plan) {
 }  // namespace
 
 void refuse_buffers(const fs::path& file) {
-  throw Error(ErrorCode::usage, file.string() + " holds what one picture sees, and there are two",
+  throw Error(ErrorCode::usage,
+              file.string() + " holds the buffers of one picture, but there are two",
               "Name a .png file, or leave --beside out.");
 }
 
@@ -66,9 +50,10 @@ FilePlan plan_files(const PictureFiles& files) {
     } else if (extension == ".exr") {
       plan.exr.push_back(file);
     } else if (extension != ".mp4" && extension != ".webp") {
-      refuse_extension(file);
+      refuse_extension(file, file.extension().string(),
+                       "Use .png or .exr, or for a turntable .mp4 or .webp.");
     } else if (files.frames == 0) {
-      throw Error(ErrorCode::usage, file.string() + " is a film, and there is one picture",
+      throw Error(ErrorCode::usage, file.string() + " is a film, but there is only one picture",
                   "Give --turntable N, or name a .png file.");
     } else {
       plan.films.push_back(file);
@@ -87,26 +72,18 @@ FilePlan checked_files(const PictureFiles& files, const fs::path& input, std::si
   if (plan.film_was_asked_for && !can_make_films()) {
     throw Error(ErrorCode::output,
                 "cannot write " + plan.films.front().string() + ": ffmpeg is missing",
-                "Install ffmpeg where PATH finds it, or name a .png file for the frames.");
+                "Install ffmpeg on the PATH, or name a .png file for the frames.");
   }
-  std::map<fs::path, fs::path> name_of_destination;
-  const auto check = [&](const fs::path& file) {
-    const fs::path destination = resolve_destination(file);
-    refuse_input(file, destination, input);
-    const auto [first, is_new] = name_of_destination.emplace(destination, file);
-    if (is_new) return;
-    throw Error(
-        ErrorCode::usage,
-        "the outputs " + first->second.string() + " and " + file.string() + " are the same file",
-        "Name each output differently.");
-  };
+  Destinations destinations(input);
   for (const auto* pictures : {&plan.png, &plan.exr}) {
     for (const fs::path& file : *pictures) {
-      if (files.frames == 0) check(file);
-      for (int frame = 1; frame <= files.frames; ++frame) check(numbered(file, frame));
+      if (files.frames == 0) destinations.add(file);
+      for (int frame = 1; frame <= files.frames; ++frame) {
+        destinations.add(numbered(file, frame));
+      }
     }
   }
-  for (const fs::path& film : plan.films) check(film);
+  for (const fs::path& film : plan.films) destinations.add(film);
   return plan;
 }
 

@@ -65,7 +65,7 @@ Film::Film(std::filesystem::path file, int width, int height, double frames_per_
     throw Error(ErrorCode::output,
                 "cannot write " + name_.string() + ": ffmpeg does not start (" +
                     error.code().message() + ")",
-                "Install ffmpeg where PATH finds it.");
+                "Install ffmpeg on the PATH.");
   }
   ::close(ends[1]);
 }
@@ -102,7 +102,7 @@ void Film::fail() {
   if (words.size() > kMost) words.resize(kMost);
   throw Error(ErrorCode::output,
               "cannot write " + name_.string() + ": ffmpeg says " + one_line(std::move(words)),
-              "See that ffmpeg has libx264 and libwebp (ffmpeg -encoders), and look at the disk.");
+              "Check that ffmpeg has libx264 and libwebp (ffmpeg -encoders), and check the disk.");
 }
 
 }  // namespace leafhull

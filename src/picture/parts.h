@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "foliage/crown_colours.h"
@@ -49,5 +50,8 @@ struct Subject::Parts {
     return *mesh_surroundings;
   }
 };
+
+/// Adds the positions of these instances to what a picture must show.
+void add_positions(const TreeModel& model, std::span<const Instance> instances, Frame& frame);
 
 }  // namespace leafhull

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -43,7 +42,7 @@ void check(const View& view, const std::string& file, const Places& places) {
   if (!is_finite(view.up)) fail(places.up, "is not finite", kGiveNumbers);
   const Vec3d forward = view.target - view.eye;
   if (!(length(forward) > 0)) {
-    fail(places.target, "is where the eye is", "Give a target that the camera can look at.");
+    fail(places.target, "is at the eye", "Give a target that the camera can look at.");
   }
   if (!(length(cross(normalized(forward), normalized(view.up))) > 1e-6)) {
     fail(places.up, "does not say which way is up: it is zero, or along the way the camera looks",
@@ -81,7 +80,7 @@ View read_json(std::string_view text, const std::string& file) {
       if (!value.is_number()) input_error(file, key, "is not a number", kLikeThis);
       view.angle = value;
     } else {
-      input_error(file, printable(key), "is none of a camera's keys",
+      input_error(file, printable(key), "is not a key of a camera",
                   "They are eye, target, up and angle.");
     }
   }
@@ -111,13 +110,7 @@ View read_node(ByteSpan bytes, const std::filesystem::path& path, bool allow_out
 }  // namespace
 
 View read_view(const std::filesystem::path& path, const ReadOptions& options) {
-  const Bytes bytes = [&] {
-    try {
-      return read_file(path, Pipes::read);
-    } catch (const FileError& error) {
-      input_error(path.string(), "", std::string("cannot be read: ") + error.what(), kGiveCamera);
-    }
-  }();
+  const Bytes bytes = read_named_file(path, kGiveCamera);
   const bool is_gltf = lower_extension(path) == ".gltf" || text_of(bytes).starts_with("glTF");
   return is_gltf ? read_node(bytes, path, options.allow_outside)
                  : read_json(text_of(bytes), path.string());

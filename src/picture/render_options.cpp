@@ -13,6 +13,11 @@
 namespace leafhull {
 namespace {
 
+constexpr std::string_view kLookNames[] = {"phong", "watercolour", "normals", "depth"};
+constexpr std::string_view kSurfacingNames[] = {"direct", "mesh"};
+constexpr std::string_view kViewpointNames[] = {"front", "three-quarter", "top"};
+constexpr std::string_view kDrawnNames[] = {"tree", "shape"};
+
 constexpr int kMostFrames = 36000;
 
 std::string_view listed_styles() {
@@ -55,7 +60,8 @@ void check_plate(const RenderOptions& options, const std::filesystem::path& subj
     refuse("--figure17 and --turntable contradict each other", "Give one of the two.");
   }
   if (options.look != Look::phong) {
-    refuse("--figure17 has looks of its own, beside --look " + std::string(name(options.look)),
+    refuse("--figure17 sets its own looks, which contradicts --look " +
+               std::string(name(options.look)),
            "Leave --look out.");
   }
   if (options.files.size() != 1 || lower_extension(options.files.front()) != ".png") {
@@ -86,15 +92,20 @@ void check_sizes(const PicturePlan& plan, const DeviceInfo* device) {
 
 }  // namespace
 
+std::span<const std::string_view> names(Look) { return kLookNames; }
+std::span<const std::string_view> names(Surfacing) { return kSurfacingNames; }
+std::span<const std::string_view> names(Viewpoint) { return kViewpointNames; }
+std::span<const std::string_view> names(Drawn) { return kDrawnNames; }
+
 void describe(OptionLine& line, Plate) { line.default_value = "off"; }
 
 std::span<const RenderOptionRow> render_table() {
   using Row = RenderOptionRow;
   static const Row rows[] = {
       Row("Output", "output", &RenderOptions::files,
-          "the picture, or with its buffers; a turntable numbers its frames; repeatable",
-          {.range = ".png .exr, of a turntable .mp4 .webp", .letter = 'o'}),
-      Row("Picture", "look", &RenderOptions::look, "how it is drawn"),
+          "the picture, in .exr with its buffers; a turntable numbers its frames; repeatable",
+          {.range = ".png .exr, for a turntable .mp4 .webp", .letter = 'o'}),
+      Row("Picture", "look", &RenderOptions::look, "how the picture is drawn"),
       Row("Picture", "size", std::pair(&RenderOptions::width, &RenderOptions::height),
           {1, kLargestSide}, "width and height",
           {.unit = "pixels",
@@ -102,14 +113,14 @@ std::span<const RenderOptionRow> render_table() {
            .default_value = "1024x1024",
            .value = "WxH"}),
       Row("Picture", "camera", &RenderOptions::camera_name,
-          "where it is seen from; a name holds all of it",
+          "where it is seen from; a named viewpoint fits all of it",
           {.range = listed_cameras(), .value = "NAME|FILE", .choices = names(Viewpoint{})}),
       Row("Picture", "turntable", &RenderOptions::frames, {1, kMostFrames},
-          "the camera goes once about the subject",
+          "draws this many frames as the camera circles the subject once",
           {.unit = "frames", .default_value = "one picture"}),
       Row("Picture", "surface", &RenderOptions::surfacing,
           "rays through the density itself, or a mesh",
-          {.default_value = "mesh of a SHAPE, else direct"}),
+          {.default_value = "mesh for a SHAPE, else direct"}),
       Row("Picture", "watercolour-style", &RenderOptions::style_name,
           "how --look watercolour paints",
           {.range = listed_styles(),
@@ -122,9 +133,10 @@ std::span<const RenderOptionRow> render_table() {
           "whether a .glb, .gltf, .fbx or .obj file is a tree, or a shape from extract",
           {.default_value = "by the names in the file"}),
       Row("Picture", "beside", &RenderOptions::beside,
-          "draws the tree itself to the left of its shape; --size is that of each"),
+          "draws the tree itself to the left of its shape; --size applies to each"),
       Row("Picture", "figure17", &RenderOptions::figure17,
-          "the paper's plate: thin, fat and the previous method, in two looks; sizes are of one",
+          "the paper's plate: thin, fat and the previous method, in two looks; --size applies to "
+          "each",
           {.range = "nothing, or paper for the paper's values", .word = "paper"}),
   };
   return rows;

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Turns trees, shapes and densities into subjects for rays.
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <string>
 #include <utility>
 
 #include "foliage/rest.h"
@@ -12,7 +10,7 @@
 #include "picture/parts.h"
 #include "pipeline/finish_mesh.h"
 #include "render/light.h"
-#include "surface/extent.h"
+#include "surface/metrics.h"
 #include "surface/polygonise.h"
 #include "surface/read_field.h"
 
@@ -24,18 +22,11 @@ using Surfaces = std::vector<std::shared_ptr<const render::Surface>>;
 
 constexpr std::string_view kShapeName = "abstract shape";
 
-Box box_of(const Frame& frame) {
-  Box box;
-  for (const Vec3d p : frame.points) box.include(p);
-  const Vec3d reach{frame.reach, frame.reach, frame.reach};
-  return {box.low - reach, box.high + reach};
-}
-
 /// Gives the parts their place in a scene about 1 large.
 void place(const Frame& frame, Parts& parts) {
   const Box box = box_of(frame);
   if (!(box.longest_side() > 0)) {
-    throw Error(ErrorCode::input, "what is to be drawn has no extent", "Repair the model.");
+    throw Error(ErrorCode::input, "the subject has no extent", "Repair the model.");
   }
   parts.placement = {(box.low + box.high) / 2, 1 / box.longest_side()};
   parts.points.reserve(frame.points.size());
@@ -132,6 +123,13 @@ void point_outwards(LeafKind kind, std::vector<LeafCard>& cards) {
 
 }  // namespace
 
+void add_positions(const TreeModel& model, std::span<const Instance> instances, Frame& frame) {
+  for (const Instance& instance : instances) {
+    const std::vector<Vec3d> points = render::world_positions(model, instance);
+    frame.points.insert(frame.points.end(), points.begin(), points.end());
+  }
+}
+
 const Report& Subject::report() const { return parts_->report; }
 
 Subject tree_subject(std::shared_ptr<const TreeModel> tree, const LeafSet& leaves,
@@ -155,10 +153,7 @@ Subject tree_subject(std::shared_ptr<const TreeModel> tree, const LeafSet& leave
   Frame all = frame;
   if (all.points.empty()) {
     all = frame_of(leaves, parts->report.radius_max_model);
-    for (const Instance& instance : wood.instances) {
-      const std::vector<Vec3d> points = render::world_positions(*wood.model, instance);
-      all.points.insert(all.points.end(), points.begin(), points.end());
-    }
+    add_positions(*wood.model, wood.instances, all);
   }
   place(all, *parts);
   parts->leaves = cards_of(leaves, parts->placement);
@@ -196,10 +191,7 @@ Subject shape_subject(std::shared_ptr<const TreeModel> shape) {
   const auto parts = std::make_shared<Parts>();
   const TreeModel& model = *parts->models.emplace_back(std::move(shape));
   Frame frame;
-  for (const Instance& instance : model.instances) {
-    const std::vector<Vec3d> points = render::world_positions(model, instance);
-    frame.points.insert(frame.points.end(), points.begin(), points.end());
-  }
+  add_positions(model, model.instances, frame);
   place(frame, *parts);
   parts->embree = render::open_embree();
   Surfaces surfaces;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <cmath>
 #include <memory>
 #include <string>
 #include <utility>
@@ -38,7 +37,7 @@ class Films {
       });
     }
     if (plan.film_is_missing) {
-      warnings_.emplace_back("frames are written, and no film: ffmpeg is not on the PATH");
+      warnings_.emplace_back("frames are written, but no film: ffmpeg is not on the PATH");
     }
   }
 
@@ -63,7 +62,7 @@ class Films {
       work();
     } catch (const Error& error) {
       if (asked_for_) throw;
-      warnings_.emplace_back(std::string("frames are written, and no film: ") + error.what());
+      warnings_.emplace_back(std::string("frames are written, but no film: ") + error.what());
       films_.clear();
     }
   }
@@ -80,7 +79,8 @@ void warn_of_older_frames(const FilePlan& plan, int frames, std::vector<std::str
       const fs::path next = numbered(file, frames + 1);
       std::error_code unreadable;
       if (!fs::exists(next, unreadable)) continue;
-      warnings.push_back(next.string() + " is there from before, and not of this turntable");
+      warnings.push_back(next.string() +
+                         " is from an earlier run and does not belong to this turntable");
     }
   }
 }
@@ -133,7 +133,7 @@ Rendering draw_row(Artist& artist, std::span<const Subject> subjects, const Pict
 PictureSummary write_pictures(std::span<const Subject> subjects, const PicturePlan& plan,
                               Device& device, const Progress& progress) {
   const FilePlan& files = plan.files;
-  if (subjects.empty()) throw Error(ErrorCode::usage, "no subject is given to be drawn");
+  if (subjects.empty()) throw Error(ErrorCode::usage, "there is no subject to draw");
   if (subjects.size() > 1 && !files.exr.empty()) refuse_buffers(files.exr.front());
   PictureOptions options = plan.picture;
   check_picture(options, &device.info());

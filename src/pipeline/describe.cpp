@@ -2,10 +2,10 @@
 #include "pipeline/describe.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <string>
 
 #include "leafhull/error.h"
+#include "text/numbers.h"
 
 namespace leafhull {
 namespace {
@@ -17,15 +17,12 @@ void warn_of_points(const LeafSet& leaves, const Prepared& prepared, Report& rep
   const Options& options = prepared.options;
   const std::vector<float>& there = *prepared.there;
   const std::vector<bool>& in_solid = prepared.points->in_solid;
-  char text[240];
   if (options.points == PointSource::vertices &&
       leaves.mean_radius_major > report.radius_max_model) {
-    std::snprintf(
-        text, sizeof text,
-        "the leaves' mean radius, %.3g model units, is above R_max, %.3g: kernels at their "
-        "vertices leave their middle empty (--points area does not)",
-        leaves.mean_radius_major, report.radius_max_model);
-    report.warnings.emplace_back(text);
+    report.warnings.push_back(
+        "the leaves' mean radius, " + significant(leaves.mean_radius_major, 3) +
+        " model units, is above R_max, " + significant(report.radius_max_model, 3) +
+        ": kernels at their vertices leave their middle empty (--points area does not)");
   }
   if (!options.coverage) return;
   // N is summed in floats: densities this near to T may end up on either side on the lattice.
@@ -38,19 +35,15 @@ void warn_of_points(const LeafSet& leaves, const Prepared& prepared, Report& rep
   }
   const auto in_solids = std::count(in_solid.begin(), in_solid.end(), true);
   if (2 * in_solids > std::ssize(in_solid)) return;  // filled crowns leave out little
-  if (options.points == PointSource::area) {
-    std::snprintf(
-        text, sizeof text,
-        "a coverage of %.3g cannot be had: most leaves are sheets of one density; T = %.3g, "
-        "well below it, takes in %.0f%% of the leaf area",
-        *options.coverage, report.threshold, 100 * report.covered);
-  } else {
-    std::snprintf(text, sizeof text,
-                  "a coverage of %.3g cannot be had: many leaf vertices have the density %.4g, and "
-                  "between %.0f%% and %.0f%% of all lie inside (--points area avoids that)",
-                  *options.coverage, report.threshold, 100 * low, 100 * report.covered);
-  }
-  report.warnings.emplace_back(text);
+  const std::string covered = fixed(100 * report.covered, 0) + "% of ";
+  report.warnings.push_back(
+      "a coverage of " + significant(*options.coverage, 3) + " cannot be reached: " +
+      (options.points == PointSource::area
+           ? "most leaves are sheets of one density; T = " + significant(report.threshold, 3) +
+                 ", well below it, takes in " + covered + "the leaf area"
+           : "many leaf vertices have the density " + significant(report.threshold, 4) +
+                 ", and between " + fixed(100 * low, 0) + "% and " + covered +
+                 "all lie inside (--points area avoids that)"));
 }
 
 /// A shape in more pieces than this warrants a warning.
@@ -82,8 +75,7 @@ Report describe(const Options& resolved, const Grid& grid) {
 Report describe(const Run& run, const Prepared& prepared) {
   Report report = describe(prepared.options, prepared.grid);
   const LeafSet& leaves = run.leaves;
-  const DeviceInfo& device = run.device.info();
-  report.device = device.name + " (" + device.platform + ", " + device.variant + ")";
+  report.device = text_of(run.device.info());
   report.warnings = leaves.warnings;
   report.density = prepared.statistics;
   report.threshold = prepared.threshold;
@@ -117,17 +109,16 @@ void describe_mesh(const Mesh& mesh, const Sampled& sampled, Report& report) {
 void refuse_empty(const Prepared& prepared, const Field& field) {
   const Options& options = prepared.options;
   const float at_leaves = std::ranges::max(*prepared.there);
-  char text[200];
-  std::snprintf(text, sizeof text,
-                "the surface is empty: no sample reaches the threshold %.4g, the density being at "
-                "most %.4g at the leaves and between",
-                field.threshold(), static_cast<double>(std::max(field.highest(), at_leaves)));
+  const auto highest = static_cast<double>(std::max(field.highest(), at_leaves));
   const char* lower = options.threshold           ? "Lower --threshold"
                       : options.threshold_percent ? "Lower --threshold-percent"
                       : options.erosion           ? "Lower --erosion"
                                                   : "Give --threshold 50% in place of --coverage";
-  throw Error(ErrorCode::empty, text,
-              std::string(lower) + ", enlarge --radius-max, or take a finer --resolution.");
+  throw Error(ErrorCode::empty,
+              "the surface is empty: no sample reaches the threshold " +
+                  significant(field.threshold(), 4) + "; the density is at most " +
+                  significant(highest, 4) + " at the leaves and between",
+              std::string(lower) + ", enlarge --radius-max, or use a finer --resolution.");
 }
 
 }  // namespace leafhull

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 
 #include "density/brick_grid.h"
 #include "density/field.h"

@@ -12,8 +12,6 @@
 namespace leafhull {
 namespace {
 
-Coord corner(Coord cell, int i) { return cell + Coord{i >> 2 & 1, i >> 1 & 1, i & 1}; }
-
 /// An offset as it is added to its frame's origin: unchanged for floats, else rounded to 2^-20.
 template <class T>
 Vec3d rounded(Vec3f offset) {
@@ -61,15 +59,11 @@ std::vector<float> DensityFunction::interpolated_at(std::span<const Vec3d> point
   std::vector<float> density(points.size());
   tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t point) {
     const Coord cell = cell_of(points[point]);
-    const Vec3d f = points[point] - to_vec3d(cell);
-    double sum = 0;
-    for (int i = 0; i < 8; ++i) {
-      const Coord c = corner(cell, i);
-      const auto found = std::lower_bound(samples.begin(), samples.end(), c) - samples.begin();
-      sum += (i >> 2 & 1 ? f.x : 1 - f.x) * (i >> 1 & 1 ? f.y : 1 - f.y) * (i & 1 ? f.z : 1 - f.z) *
-             static_cast<double>(values[static_cast<std::size_t>(found)]);
-    }
-    density[point] = static_cast<float>(sum);
+    const auto value = [&](int i) {
+      const auto found = std::ranges::lower_bound(samples, corner(cell, i)) - samples.begin();
+      return values[static_cast<std::size_t>(found)];
+    };
+    density[point] = static_cast<float>(trilinear(points[point] - to_vec3d(cell), value));
   });
   return density;
 }

@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <string>
 
 #include "leafhull/error.h"
+#include "text/numbers.h"
 
 namespace leafhull {
 namespace {
@@ -19,11 +19,7 @@ constexpr double kMostVoxelsOfGridDensity = 1e6 * (1 + 1e-9);
 /// A radius of more crowns than this is a mistake, and its support would make a huge lattice.
 constexpr double kLargestRadius = 100;
 
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.4g", value);
-  return text;
-}
+std::string number(double value) { return significant(value, 4); }
 
 void check_radii(const LeafSet& leaves, double radius_max) {
   if (leaves.vertices.empty()) {
@@ -38,7 +34,7 @@ void check_radii(const LeafSet& leaves, double radius_max) {
     throw Error(ErrorCode::usage,
                 "R_max, " + number(radius_max) + " model units, is more than " +
                     number(kLargestRadius) + " times the crown of " + number(crown),
-                "Lower --radius-max or look at --radius-unit.");
+                "Lower --radius-max or check --radius-unit.");
   }
   float largest = 0;
   for (const LeafVertex& leaf : leaves.vertices) largest = std::max(largest, leaf.radius_major);
@@ -47,7 +43,7 @@ void check_radii(const LeafSet& leaves, double radius_max) {
                 "a leaf's radius, " + number(static_cast<double>(largest)) +
                     " model units, is more than " + number(kLargestRadius) +
                     " times the crown of " + number(crown),
-                "Lower --leaf-scale or look at --ellipse.");
+                "Lower --leaf-scale or check --ellipse.");
   }
 }
 
@@ -60,7 +56,7 @@ void check_voxels(const LeafSet& leaves, double side, double voxel_size, Density
   if (side / voxel_size > most || voxel_size > side) {
     throw Error(ErrorCode::usage,
                 "a voxel of " + number(voxel_size) + " does not suit a crown of " + number(side) +
-                    " model units, R_max on both sides",
+                    " model units with R_max on both sides",
                 "Give a --voxel-size from " + number(side / most) + " to " + number(side) +
                     ", or a --resolution.");
   }

@@ -13,6 +13,7 @@
 
 #include "density/band.h"
 #include "leafhull/error.h"
+#include "text/numbers.h"
 
 namespace leafhull {
 namespace {
@@ -118,17 +119,14 @@ void FieldMemory::check() const {
   if (fits()) return;
   constexpr double kGiB = 1 << 30;
   constexpr double kToSpare = 0.98;  // what is available changes from run to run
-  const double largest =
-      std::floor(kToSpare * resolution_ * std::pow(available_ / needed_, 1 / power_));
-  char text[200];
-  std::snprintf(text, sizeof text,
-                "a resolution of %d voxels needs about %.3g GiB, and %.3g GiB are available",
-                resolution_, needed_ / kGiB, available_ / kGiB);
-  char remedy[160];
-  std::snprintf(remedy, sizeof remedy,
-                "The largest resolution that fits here is about %.0f (--resolution %.0f).", largest,
-                largest);
-  throw Error(ErrorCode::usage, text, remedy);
+  const std::string largest =
+      fixed(std::floor(kToSpare * resolution_ * std::pow(available_ / needed_, 1 / power_)), 0);
+  throw Error(ErrorCode::usage,
+              "a resolution of " + std::to_string(resolution_) + " voxels needs about " +
+                  significant(needed_ / kGiB, 3) + " GiB, and " +
+                  significant(available_ / kGiB, 3) + " GiB are available",
+              "The largest resolution that fits here is about " + largest + " (--resolution " +
+                  largest + ").");
 }
 
 }  // namespace leafhull

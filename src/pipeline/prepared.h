@@ -35,7 +35,12 @@ Value taken(std::shared_ptr<Value> shared) {
 }
 
 /// Places in voxels from a lattice's anchor.
-std::vector<Vec3d> local(std::span<const Vec3d> places, const Lattice& lattice);
+inline std::vector<Vec3d> local(std::span<const Vec3d> places, const Lattice& lattice) {
+  std::vector<Vec3d> points;
+  points.reserve(places.size());
+  for (const Vec3d& place : places) points.push_back(lattice.local(place));
+  return points;
+}
 
 /// The centres of points, kernels or leaf vertices, model units.
 template <class Point>

@@ -3,11 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
+#include <string>
 
 #include "density/control.h"
 #include "leafhull/error.h"
+#include "text/numbers.h"
 
 namespace leafhull {
 namespace {
@@ -33,25 +34,26 @@ double threshold_for_erosion(const ThresholdOptions& options, double erosion,
                              const LeafDensity& there) {
   const std::span<const float> density = there.density;
   const double threshold = threshold_for_coverage(density, 1 - erosion);
-  char text[200];
+  const std::string refused = "an erosion of " + significant(*options.erosion, 3);
   if (options.points == PointSource::area) {
     std::vector<WeightedDensity> all = weighted(there);
     if (const std::optional<double> whole = below_film(all, threshold)) {
-      std::snprintf(text, sizeof text,
-                    "an erosion of %.3g cannot be had: most of this tree is sheets of one density, "
-                    "%.3g, and a surface next to that is a film with holes; %.3g can",
-                    *options.erosion, *whole / 0.6, share_below(density, *whole));
-      throw Error(ErrorCode::usage, text, "Give that, or --coverage in place of --erosion.");
+      throw Error(ErrorCode::usage,
+                  refused + " cannot be reached: most of this tree is sheets of one density, " +
+                      significant(*whole / 0.6, 3) +
+                      ", and a surface next to that is a film with holes; " +
+                      significant(share_below(density, *whole), 3) + " can",
+                  "Give that erosion, or --coverage in place of --erosion.");
     }
   }
   const double below = share_below(density, threshold);
   const double with_equal = share_below(density, std::nextafter(threshold, HUGE_VAL));
   if (std::abs(below - erosion) > kSliderError) {
-    std::snprintf(text, sizeof text,
-                  "an erosion of %.3g cannot be had: many leaf vertices have the density %.4g; "
-                  "about %.3g can, and %.3g",
-                  *options.erosion, threshold, below, with_equal);
-    throw Error(ErrorCode::usage, text, "Give one of these, or --points area.");
+    throw Error(ErrorCode::usage,
+                refused + " cannot be reached: many leaf vertices have the density " +
+                    significant(threshold, 4) + "; about " + significant(below, 3) + " and " +
+                    significant(with_equal, 3) + " can",
+                "Give one of these, or --points area.");
   }
   return threshold;
 }

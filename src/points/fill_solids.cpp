@@ -6,13 +6,13 @@
 #include <cmath>
 #include <compare>
 #include <cstdint>
-#include <cstdio>
 #include <limits>
 #include <set>
 #include <unordered_map>
 #include <utility>
 
 #include "leafhull/error.h"
+#include "text/numbers.h"
 
 namespace leafhull {
 namespace {
@@ -171,10 +171,10 @@ bool is_filled(const LeafSolid& solid, double radius_max) {
 std::vector<LeafPoint> fill(const LeafSolid& solid, double radius_max) {
   const double edge = kCellOverRadius * radius_max;
   if (const double cells = solid.volume / (edge * edge * edge); !(cells <= kMostCells)) {
-    char text[160];
-    std::snprintf(text, sizeof text,
-                  "a crown would be filled with %.3g leaf points, more than ten million", cells);
-    throw Error(ErrorCode::usage, text, "Raise --radius-max.");
+    throw Error(ErrorCode::usage,
+                "a crown would be filled with " + significant(cells, 3) +
+                    " leaf points, more than ten million",
+                "Raise --radius-max.");
   }
   const double step = edge / kSamplesPerCell;
   Cells cells = cells_of(solid, step);

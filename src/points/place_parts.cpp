@@ -6,16 +6,14 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <map>
-#include <string>
-#include <tuple>
 
 #include "leafhull/error.h"
 #include "points/cut.h"
 #include "points/ellipse_of.h"
 #include "points/even_samples.h"
 #include "points/leaf_points.h"
+#include "text/numbers.h"
 
 namespace leafhull {
 namespace {
@@ -119,12 +117,10 @@ std::vector<LeafPoint> place_parts(const LeafSheets& sheets, double spacing,
     if (count > 1) cuts.try_emplace(Cut::of(sheet, static_cast<std::size_t>(count)));
   }
   if (!(all <= kMostParts)) {
-    char text[160];
-    std::snprintf(
-        text, sizeof text,
-        "the leaves would be cut into %.3g parts of %.3g model units, more than ten million", all,
-        spacing);
-    throw Error(ErrorCode::usage, text, "Raise --radius-max or --point-spacing.");
+    throw Error(ErrorCode::usage,
+                "the leaves would be cut into " + significant(all, 3) + " parts of " +
+                    significant(spacing, 3) + " model units, more than ten million",
+                "Raise --radius-max or --point-spacing.");
   }
   std::vector<std::pair<const Cut, std::vector<FlatPart>>*> jobs;
   for (auto& entry : cuts) jobs.push_back(&entry);

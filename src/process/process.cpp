@@ -14,7 +14,6 @@
 #include <filesystem>
 #include <sstream>
 #include <system_error>
-#include <utility>
 
 namespace leafhull {
 namespace {

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <unistd.h>
+
+#include <array>
 #include <charconv>
 #include <cstdlib>
 #include <string_view>
 
 #include "leafhull/error.h"
 #include "leafhull/ranks.h"
-#ifdef LEAFHULL_HAS_MPI
-#include "ranks/mpi/mpi_ranks.h"
-#endif
+#include "ranks/host.h"
 
 namespace leafhull {
 namespace {
@@ -36,6 +37,12 @@ int launched_processes() {
 
 }  // namespace
 
+RankProcess this_process() {
+  std::array<char, 256> host{};  // POSIX: at most 255 bytes
+  if (gethostname(host.data(), host.size() - 1) != 0) host[0] = '?';
+  return {host.data(), getpid()};
+}
+
 std::unique_ptr<Ranks> open_ranks() {
   const int processes = launched_processes();
   if (processes <= 1) return single_rank();
@@ -44,7 +51,7 @@ std::unique_ptr<Ranks> open_ranks() {
 #else
   throw Error(ErrorCode::usage,
               "leafhull was started as one of " + std::to_string(processes) +
-                  " ranks, and it was built without MPI",
+                  " ranks, but it was built without MPI",
               "Start it alone, share the work with --tile-range, or build it with "
               "-DLEAFHULL_MPI=ON.");
 #endif

@@ -348,6 +348,17 @@ class BufferPainter {
 
 }  // namespace
 
+void Buffers::resize(int new_width, int new_height) {
+  width = new_width, height = new_height;
+  const std::size_t pixels = static_cast<std::size_t>(width) * height;
+  object.assign(pixels, Object::paper);
+  foliage.assign(pixels, 0), wood.assign(pixels, 0);
+  depth.assign(pixels, HUGE_VALF);
+  normal.assign(pixels, {}), position.assign(pixels, {}), color.assign(pixels, {});
+  key.assign(pixels, 1), open.assign(pixels, 1);
+  edges.clear(), samples.clear();
+}
+
 Buffers draw_buffers(std::span<const Target* const> targets, const Surroundings& surroundings,
                      const Camera& camera, int width, int height, Effort effort,
                      const std::function<void(double)>& tell) {

@@ -30,16 +30,15 @@ Picture draw(const Mesh& mesh, const Frame& view, const Box& box, int width, int
       draw_buffers(targets, MeshSurroundings(targets), camera, width, height, kEffort));
 }
 
-/// The box of a frame's points, grown by their reach.
+}  // namespace
+}  // namespace render
+
 Box box_of(const Frame& frame) {
   Box box;
   for (const Vec3d p : frame.points) box.include(p);
   const Vec3d reach{frame.reach, frame.reach, frame.reach};
   return {box.low - reach, box.high + reach};
 }
-
-}  // namespace
-}  // namespace render
 
 Frame frame_of(const LeafSet& leaves, double radius_max) {
   Frame frame{{}, radius_max};
@@ -57,7 +56,7 @@ Picture draw_shape(const Mesh& mesh, const Frame& frame, int width, int height) 
   if (mesh.triangles.empty()) {
     return {width, height, std::vector<std::uint8_t>(std::size_t{3} * width * height, 255)};
   }
-  const Box box = render::box_of(frame);
+  const Box box = box_of(frame);
   if (!(box.longest_side() > 0)) {
     throw Error(ErrorCode::usage, "the frame of a picture has no extent");
   }

@@ -12,8 +12,8 @@
 #include <span>
 #include <string>
 
+#include "colour/colour.h"
 #include "leafhull/error.h"
-#include "render/light.h"
 
 namespace leafhull::render {
 namespace {
@@ -126,8 +126,7 @@ std::vector<std::uint8_t> encode_exr(const Buffers& buffers, const Picture& pict
   std::vector<Vec3f> colors;
   colors.reserve(buffers.size());
   for (std::size_t i = 0; i < 3 * buffers.size(); i += 3) {
-    colors.push_back(
-        {linear(picture.rgb[i]), linear(picture.rgb[i + 1]), linear(picture.rgb[i + 2])});
+    colors.push_back(linear_of_srgb({picture.rgb[i], picture.rgb[i + 1], picture.rgb[i + 2]}));
   }
   return encode(buffers, colors);
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/light.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "colour/colour.h"
@@ -28,8 +27,6 @@ Vec3f foliage_colour(const std::optional<Vec3f>& leaves) {
   const Vec3d lab = oklab_of(leaves ? *leaves : kLeafGreen);
   return shown_oklab({(lab.x + kLitLightness) / 2, kLitChroma * lab.y, kLitChroma * lab.z});
 }
-
-float linear(std::uint8_t srgb) { return linear_of_srgb(srgb); }
 
 std::uint8_t srgb(float linear) {
   return static_cast<std::uint8_t>(std::lround(255 * srgb_of_linear(linear)));

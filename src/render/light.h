@@ -33,7 +33,4 @@ Vec3f develop(Vec3f radiance);
 /// 8 bits of sRGB. Source: IEC 61966-2-1.
 std::uint8_t srgb(float linear);
 
-/// The linear value of 8 bits of sRGB.
-float linear(std::uint8_t srgb);
-
 }  // namespace leafhull::render

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "runs/difference.h"
 
+#include "text/choice.h"
 #include "text/text.h"
 
 namespace leafhull {
@@ -21,8 +22,7 @@ Json member(const Json& of, const std::string& key) {
 }  // namespace
 
 std::string Difference::text() const {
-  std::string place;
-  for (const std::string& key : path) place += (place.empty() ? "" : ".") + key;
+  const std::string place = joined(path, ".");
   return (place.empty() ? "the plan" : place) + " is " + shown(there) + " there and " +
          shown(here) + " here";
 }

@@ -13,8 +13,4 @@ std::string checksum_of(const LeafSet& leaves) {
   return record_of(bytes).sha256;
 }
 
-std::string text_of(const DeviceInfo& device) {
-  return device.name + " (" + device.platform + ", " + device.variant + ")";
-}
-
 }  // namespace leafhull

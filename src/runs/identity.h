@@ -3,7 +3,6 @@
 
 #include <string>
 
-#include "leafhull/device.h"
 #include "leafhull/leaves.h"
 
 namespace leafhull {
@@ -18,8 +17,5 @@ void add_bytes(std::string& bytes, const Values&... values) {
 
 /// SHA-256 of all leaf vertices, hexadecimal.
 std::string checksum_of(const LeafSet& leaves);
-
-/// "DEVICE (PLATFORM, VARIANT)".
-std::string text_of(const DeviceInfo& device);
 
 }  // namespace leafhull

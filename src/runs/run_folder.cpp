@@ -10,7 +10,6 @@
 #include <cerrno>
 #include <cstdio>
 #include <system_error>
-#include <utility>
 
 #include "output/file_stream.h"
 #include "output/write_error.h"

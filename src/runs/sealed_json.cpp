@@ -46,7 +46,7 @@ Json unsealed(std::string_view text, std::string_view schema, const std::string&
   const std::string found = schema_of(object);
   const std::string wanted = dumped(Json(schema));
   if (found != wanted) {
-    refuse("is of another program or version: its schema is " + found + ", not " + wanted);
+    refuse("is from another program or version: its schema is " + found + ", not " + wanted);
   }
   if (!take_seal_off(object)) refuse("is damaged: its checksum differs");
   return object;

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scene/csv_rows.h"
-
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <optional>
-#include <utility>
 
 #include "scene/csv.h"
+#include "scene/scatter_row.h"
+#include "text/numbers.h"
 #include "text/text.h"
 
 namespace leafhull {
@@ -33,10 +31,7 @@ constexpr const char* kNameThem =
     "Name the columns in the first line: model,x,y,z,qx,qy,qz,qw,scale.";
 
 int column_called(std::string_view name) {
-  std::string lower(name);
-  for (char& c : lower) {
-    if (c >= 'A' && c <= 'Z') c += 'a' - 'A';
-  }
+  std::string lower = in_lower_case(std::string(name));
   if (lower.starts_with("position_")) lower.erase(0, 9);
   const auto found = std::ranges::find(kColumns, lower);
   return found == kColumns.end() ? -1 : static_cast<int>(found - kColumns.begin());
@@ -44,10 +39,7 @@ int column_called(std::string_view name) {
 
 std::optional<double> number_in(std::string_view text) {
   if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size()) return {};
-  return value;
+  return parsed<double>(text);
 }
 
 bool has_decimal_comma(std::string_view text) {
@@ -162,12 +154,6 @@ std::vector<int> CsvRows::named_columns() {
     throw BadRow{"names no column " + std::string(kColumns[group.first]), kNameThem};
   }
   return columns;
-}
-
-std::string CsvRows::passed_over() const {
-  std::string names;
-  for (const std::string& name : unknown_) names += (names.empty() ? "" : ", ") + name;
-  return names;
 }
 
 }  // namespace leafhull

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <map>
-#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -22,13 +21,6 @@ namespace fs = std::filesystem;
 
 /// A model with fewer leaf vertices is probably a part of a tree.
 constexpr std::size_t kFewLeafVertices = 64;
-
-Bytes read_scene_file(const fs::path& file) try {
-  return read_file(file, Pipes::read);
-} catch (const FileError& error) {
-  input_error(file.string(), "", std::string("cannot be read: ") + error.what(),
-              "Give the path of a .glb or .gltf file that you may read.");
-}
 
 PlacedTree to_tree(const Transform& to_world) {
   PlacedTree tree;
@@ -154,7 +146,8 @@ Scene read_gltf_scene(const fs::path& file, const LeafOptions& leaves, const Rea
     return standing;
   };
   {
-    const Bytes bytes = read_scene_file(file);
+    const Bytes bytes =
+        read_named_file(file, "Give the path of a .glb or .gltf file that you may read.");
     *tree =
         read_gltf_meshes(
             bytes, file.string(), Companions(file, reading.allow_outside),

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scene/json_rows.h"
-
 #include <algorithm>
 #include <array>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <string_view>
 
+#include "scene/scatter_row.h"
 #include "text/text.h"
 
 namespace leafhull {
@@ -40,7 +39,7 @@ std::string with_nulls(const std::string& line) {
   return text;
 }
 
-json parsed(const std::string& line) {
+json object_in(const std::string& line) {
   json value = json::parse(line, nullptr, false);
   if (value.is_discarded()) value = json::parse(with_nulls(line), nullptr, false);
   if (!value.is_object()) throw BadRow{"is not a JSON object", kExample};
@@ -88,7 +87,7 @@ Vec3d scale_of(const json& value) {
 }  // namespace
 
 bool JsonRows::read(std::string& line, ScatterRow& row) {
-  const json object = parsed(line);
+  const json object = object_in(line);
   row = {};
   for (const char* name : {"model", "position"}) {
     if (!object.contains(name)) throw BadRow{std::string("has no ") + name, kExample};
@@ -107,12 +106,6 @@ bool JsonRows::read(std::string& line, ScatterRow& row) {
     }
   }
   return true;
-}
-
-std::string JsonRows::passed_over() const {
-  std::string names;
-  for (const std::string& name : unknown_) names += (names.empty() ? "" : ", ") + name;
-  return names;
 }
 
 }  // namespace leafhull

@@ -29,4 +29,11 @@ Scene read_scene(const std::filesystem::path& path, const LeafOptions& leaves,
               "glTF file (.glb or .gltf) whose nodes are trees.");
 }
 
+LeafSet read_model(const SceneModel& model, const LeafOptions& leaves) {
+  if (!model.meshes) return find_leaves(read_tree(model.file, model.reading), leaves);
+  LeafChoice choice = *model.choice;
+  choice.instances.assign(model.instances.size(), true);
+  return find_leaves(*model.meshes, model.instances, choice, leaves);
+}
+
 }  // namespace leafhull

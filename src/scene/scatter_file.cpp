@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/scatter_file.h"
 
+#include <cerrno>
 #include <fstream>
 #include <istream>
 #include <map>
@@ -8,9 +9,7 @@
 #include <unordered_map>
 
 #include "leafhull/error.h"
-#include "scene/csv_rows.h"
-#include "scene/json_rows.h"
-#include "scene/lines.h"
+#include "scene/scatter_row.h"
 #include "scene/scene_builder.h"
 #include "text/text.h"
 
@@ -18,6 +17,55 @@ namespace leafhull {
 namespace {
 
 namespace fs = std::filesystem;
+
+[[noreturn]] void fail(const std::filesystem::path& file, std::error_code why) {
+  throw Error(ErrorCode::input, file.string() + ": cannot be read: " + why.message(),
+              "Give the path of a .csv or .jsonl file that you may read.");
+}
+
+std::ifstream open_text(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) fail(file, {errno, std::generic_category()});
+  std::error_code unknown;
+  if (std::filesystem::is_directory(file, unknown)) {
+    fail(file, std::make_error_code(std::errc::is_a_directory));
+  }
+  return stream;
+}
+
+/// The lines of a text file that say something: blank ones and those that begin with # are passed
+/// over, as are a byte order mark and carriage returns.
+class Lines {
+ public:
+  /// @param file the name that messages use.
+  Lines(std::istream& stream, const std::filesystem::path& file) : file_(file), stream_(stream) {}
+
+  /// @throws Error input: the file cannot be read, or is UTF-16 text.
+  bool next();
+  std::string& text() { return text_; }
+  std::size_t number() const { return number_; }  ///< from one
+
+ private:
+  std::filesystem::path file_;
+  std::istream& stream_;
+  std::string text_;
+  std::size_t number_ = 0;
+};
+
+bool Lines::next() {
+  while (std::getline(stream_, text_)) {
+    ++number_;
+    if (number_ == 1 && (text_.starts_with("\xFF\xFE") || text_.starts_with("\xFE\xFF"))) {
+      throw Error(ErrorCode::input, file_.string() + ": is UTF-16 text", "Save it as UTF-8.");
+    }
+    if (number_ == 1 && text_.starts_with("\xEF\xBB\xBF")) text_.erase(0, 3);
+    if (text_.ends_with('\r')) text_.pop_back();
+    const std::size_t first = text_.find_first_not_of(" \t");
+    if (first != std::string::npos && text_[first] != '#') return true;
+  }
+  if (stream_.bad()) fail(file_, {errno, std::generic_category()});
+  return false;
+}
 
 /// The tree files that the lines name; two spellings of one file are one model.
 class TreeFiles {

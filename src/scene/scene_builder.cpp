@@ -44,9 +44,10 @@ Scene SceneBuilder::finish() {
                   "Give a scene with one tree or more.");
     }
     throw Error(ErrorCode::input,
-                file + " holds no tree that can stand: of all " + std::to_string(scene_.skipped) +
-                    " the " + kWhySkipped + ", the first at " + first_skipped_,
-                "Look at its scales and rotations.");
+                file + " holds no tree that can be placed: of all " +
+                    std::to_string(scene_.skipped) + " the " + kWhySkipped + ", the first at " +
+                    first_skipped_,
+                "Check its scales and rotations.");
   }
   if (scene_.skipped == 1) {
     warn("1 tree was skipped, at " + first_skipped_ + ": its " + kWhySkipped);

@@ -1,17 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <stb/stb_image.h>
+
 #include <algorithm>
-#include <array>
-#include <charconv>
+#include <climits>
 #include <cmath>
+#include <cstdint>
+#include <memory>
 #include <string>
 #include <system_error>
+#include <vector>
 
+#include "input/file_bytes.h"
 #include "leafhull/error.h"
 #include "leafhull/output.h"
 #include "leafhull/scene.h"
 #include "scene/csv.h"
-#include "scene/height_field.h"
 #include "scene/poisson_disk.h"
+#include "text/numbers.h"
 #include "text/text.h"
 
 namespace leafhull {
@@ -29,7 +34,7 @@ void require(bool holds, const std::string& what, const char* remedy) {
 bool is_positive(double value) { return value > 0 && std::isfinite(value); }
 
 void check(const ScatterOptions& options) {
-  require(!options.trees.empty(), "no tree is to be scattered", "Name one tree file or more.");
+  require(!options.trees.empty(), "no tree is given", "Name one tree file or more.");
   if (options.area) {
     const auto [x, y] = *options.area;
     require(is_positive(x) && is_positive(y), "--area has a side that is not a positive number",
@@ -49,6 +54,60 @@ void check(const ScatterOptions& options) {
             "Give the height of white above black.");
   }
   check_rows(scatter_table(), options);
+}
+
+constexpr std::int64_t kMostPixels = 16384 * 16384;  // 512 MiB
+
+[[noreturn]] void fail_at(const fs::path& picture, const std::string& what) {
+  throw Error(ErrorCode::input, "the height map " + printable(picture.string(), 1000) + ' ' + what,
+              "Give a grey PNG of 8 or 16 bits, of up to 16384 x 16384 pixels.");
+}
+
+Bytes read_picture(const fs::path& picture) try {
+  return read_file(picture, Pipes::read);
+} catch (const FileError& error) {
+  fail_at(picture, std::string("cannot be read: ") + error.what());
+}
+
+/// Heights interpolated between the pixels of a picture whose corners are those of the area.
+class HeightField {
+ public:
+  /// @throws Error input: the picture cannot be read.
+  explicit HeightField(const HeightMap& map);
+
+  /// @param u, v from 0 to 1, to the right and down the picture.
+  double at(double u, double v) const;
+
+ private:
+  double height_;
+  int width_ = 0, rows_ = 0;
+  std::vector<std::uint16_t> grey_;
+};
+
+HeightField::HeightField(const HeightMap& map) : height_(map.height) {
+  const Bytes bytes = read_picture(map.picture);
+  if (!text_of(bytes).starts_with("\x89PNG")) fail_at(map.picture, "is not a PNG picture");
+  const int size = bytes.size() > INT_MAX ? 0 : static_cast<int>(bytes.size());
+  if (stbi_info_from_memory(bytes.data(), size, &width_, &rows_, nullptr) == 0 ||
+      std::int64_t{width_} * rows_ > kMostPixels) {
+    fail_at(map.picture, "is damaged or too large");
+  }
+  const std::unique_ptr<stbi_us, void (*)(void*)> pixels(
+      stbi_load_16_from_memory(bytes.data(), size, &width_, &rows_, nullptr, 1), &stbi_image_free);
+  if (!pixels) fail_at(map.picture, "is damaged: " + printable(stbi_failure_reason()));
+  grey_.assign(pixels.get(), pixels.get() + static_cast<std::size_t>(width_) * rows_);
+}
+
+double HeightField::at(double u, double v) const {
+  const double x = u * (width_ - 1), y = v * (rows_ - 1);
+  const int left = static_cast<int>(x), top = static_cast<int>(y);
+  const int right = std::min(left + 1, width_ - 1), bottom = std::min(top + 1, rows_ - 1);
+  const auto grey = [&](int column, int row) {
+    return static_cast<double>(grey_[static_cast<std::size_t>(row) * width_ + column]);
+  };
+  const double upper = std::lerp(grey(left, top), grey(right, top), x - left);
+  const double lower = std::lerp(grey(left, bottom), grey(right, bottom), x - left);
+  return height_ * std::lerp(upper, lower, y - top) / 65535;
 }
 
 /// The mean width of the leaves along x and z, over all trees.
@@ -85,7 +144,7 @@ std::string model_name(const fs::path& tree, const fs::path& scatter_file) {
   const std::string name =
       (real_folder(tree) / tree.filename()).lexically_proximate(real_folder(scatter_file)).string();
   require(name.find_first_of("\r\n") == std::string::npos,
-          "the name of " + printable(tree.string(), 1000) + " breaks a line",
+          "the name of " + printable(tree.string(), 1000) + " has a line break",
           "Give the file another name.");
   return csv_field(name);
 }
@@ -99,12 +158,6 @@ double rounded(double value, int decimals) {
   const double power = std::pow(10.0, decimals);
   const double scaled = std::round(value * power);
   return std::abs(scaled) < 0x1p53 ? scaled / power + 0.0 : value;  // + 0.0: no -0
-}
-
-void append(std::string& text, double value) {
-  std::array<char, 32> digits;
-  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
-  text.append(digits.data(), end);
 }
 
 }  // namespace
@@ -125,7 +178,7 @@ std::span<const ScatterOptionRow> scatter_table() {
           "sides of the rectangle along x and z, about the origin",
           {.unit = "model units", .range = "> 0 each", .default_value = "as --spacing asks"}),
       Row("Ground", "height-map", std::pair(kGround, &HeightMap::picture),
-          "the ground as seen from above, white the highest: +x right, +z down",
+          "the ground from above, white the highest; +x is right, +z is down",
           {.range = ".png, grey, 8 or 16 bits", .default_value = "flat", .value = "FILE"}),
       Row("Ground", "height", std::pair(kGround, &HeightMap::height), {-kWidest, kWidest},
           "height of white above black in the height map",
@@ -153,13 +206,14 @@ void write_scatter(const ScatterOptions& options, const fs::path& file) {
     const double height = ground ? ground->at(u, v) : 0;
     text += names[random.index(names.size())];
     for (const double coordinate : {centre.x - area.x / 2, height, centre.y - area.y / 2}) {
-      append(text += ',', rounded(coordinate, decimals));
+      text += ',' + shortest(rounded(coordinate, decimals));
     }
-    append(text += ',', rounded(random.number(0, 360), 2));
+    text += ',' + shortest(rounded(random.number(0, 360), 2));
     const double scale = random.number(options.scale_low, options.scale_high);
-    append(text += ',',
-           std::clamp(rounded(scale, scale_decimals), options.scale_low, options.scale_high));
-    text += '\n';
+    text += ',' +
+            shortest(
+                std::clamp(rounded(scale, scale_decimals), options.scale_low, options.scale_high)) +
+            '\n';
   }
   write_file(file, text);
 }

@@ -6,7 +6,6 @@
 #include <functional>
 #include <optional>
 
-#include "study/measure_plan.h"
 #include "study/numbers.h"
 #include "study/study_plan.h"
 
@@ -85,7 +84,8 @@ LeafSet scaled(LeafSet leaves, double scale) {
 std::string failure(Method method, const char* parameter, const Probe& nearest, double value) {
   return std::string(paper_name(method)) + " loses " + fixed(100 * nearest.share, 2) +
          "% of the leaf vertices where it comes nearest to the paper’s " +
-         fixed(100 * share_in_paper(method), 2) + "%, " + parameter + " being " + shortest(value);
+         fixed(100 * share_in_paper(method), 2) + "%, " + parameter + " being " +
+         significant(value, 4);
 }
 
 /// Finds the T at which L&D loses the same share as in the paper. The search starts at the T that
@@ -159,7 +159,7 @@ void move_band(BandStudy& band, const LeafSet& leaves, Device& device) {
 }  // namespace
 
 std::string name(const Band& band) {
-  const std::string low = shortest(band.low), high = shortest(band.high);
+  const std::string low = significant(band.low, 4), high = significant(band.high, 4);
   return band.percent ? low + "–" + high + "%" : low + " to " + high + " s";
 }
 

@@ -3,6 +3,9 @@
 
 #include <algorithm>
 
+#include "leafhull/error.h"
+#include "leafhull/series.h"
+
 namespace leafhull {
 namespace {
 
@@ -96,6 +99,19 @@ Plan plan(std::span<ReadingStudy> studies) {
     }
   }
   return plan;
+}
+
+void measure(const Plan& plan, const LeafSet& leaves, Device& device,
+             const std::function<void(const Report&)>& each) {
+  extract_series(leaves, plan.options, device, [&](std::size_t i, SeriesEntry&& entry) {
+    if (!entry.failure.empty()) throw Error(ErrorCode::usage, entry.failure);
+    for (StudyRow* row : plan.rows[i]) {
+      row->empty = entry.empty();
+      row->metrics = entry.report.metrics;
+    }
+    each(entry.report);
+    return true;
+  });
 }
 
 }  // namespace leafhull

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <span>
 #include <vector>
 
+#include "leafhull/shape.h"
 #include "leafhull/study.h"
 
 namespace leafhull {
@@ -28,5 +30,10 @@ struct Plan {
 };
 
 Plan plan(std::span<ReadingStudy> studies);
+
+/// Fills in the metrics of a plan's rows; calls `each` with the report of every extraction.
+/// @throws Error as extract does, except for an empty surface.
+void measure(const Plan& plan, const LeafSet& leaves, Device& device,
+             const std::function<void(const Report&)>& each);
 
 }  // namespace leafhull

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <functional>
 #include <iterator>
 #include <optional>
@@ -12,6 +11,7 @@
 
 #include "study/band_study.h"
 #include "study/numbers.h"
+#include "text/choice.h"
 
 namespace leafhull {
 namespace {
@@ -73,11 +73,9 @@ Finding order(const ReadingStudy& study, const Count& count, std::array<Method, 
   if (std::string why = nothing_to_compare(study.table1, count); !why.empty()) {
     return leave_open(std::move(why));
   }
-  std::string figures;
-  for (const Method method : methods) {
-    figures += (figures.empty() ? "" : ", ") + std::string(paper_name(method)) + " " +
-               text(row_of(study, method), count);
-  }
+  const std::string figures = joined(methods, ", ", [&](Method method) {
+    return std::string(paper_name(method)) + " " + text(row_of(study, method), count);
+  });
   const auto falls = [&](Method more, Method fewer) {
     return count.of(row_of(study, more)) > count.of(row_of(study, fewer));
   };
@@ -164,7 +162,7 @@ struct Series {
   double first() const { return rows.front().*value; }
   double last() const { return rows.back().*value; }
   std::string range() const {
-    return std::string(parameter) + " " + shortest(first()) + " to " + shortest(last());
+    return std::string(parameter) + " " + significant(first(), 4) + " to " + significant(last(), 4);
   }
 };
 
@@ -181,9 +179,8 @@ Series lowering_flatness(const ReadingStudy& study) {
 }
 
 std::string listed(const Series& series, const Count& count) {
-  std::string counts;
-  for (const StudyRow& row : series.rows) counts += (counts.empty() ? "" : ", ") + text(row, count);
-  return series.range() + ": " + counts;
+  return series.range() + ": " +
+         joined(series.rows, ", ", [&](const StudyRow& row) { return text(row, count); });
 }
 
 /// Whether `count` changes in one direction along the whole series; `against(a, b)` tells whether
@@ -334,6 +331,11 @@ constexpr Claim kClaims[] = {
 std::string_view name(Outcome outcome) {
   constexpr std::string_view kNames[] = {"holds", "fails", "open"};
   return kNames[static_cast<std::size_t>(outcome)];
+}
+
+std::string_view in_words(Outcome outcome) {
+  constexpr std::string_view kWords[] = {"holds", "does not hold", "cannot be told"};
+  return kWords[static_cast<std::size_t>(outcome)];
 }
 
 Outcome intermediate(const BandStudy& band, const StudyRow& controlled) {

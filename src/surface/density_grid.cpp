@@ -20,7 +20,7 @@ openvdb::Coord anchor_of(const Lattice& lattice) {
     if (std::abs(anchor) > std::numeric_limits<std::int32_t>::max() / 2) {
       throw Error(ErrorCode::output,
                   "the tree lies too many voxels from the origin for a .vdb grid",
-                  "Move it closer to the origin or take larger voxels.");
+                  "Move it closer to the origin or use larger voxels.");
     }
     return static_cast<std::int32_t>(anchor);
   };

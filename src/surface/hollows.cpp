@@ -5,8 +5,6 @@
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
-#include <array>
-#include <bit>
 #include <cstdint>
 #include <functional>
 #include <limits>

@@ -116,28 +116,25 @@ VoxelCount count_voxels(const Field& field) {
   return count;
 }
 
-/// -N at the corners of a cell; bit 2 of the index is x, bit 1 y, bit 0 z.
+/// -N at the corners of a cell.
 using Corners = std::array<float, 8>;
 
 Corners corners_of(const openvdb::FloatGrid::ConstAccessor& negated, Coord cell) {
   Corners corners;
   for (int i = 0; i < 8; ++i) {
-    corners[static_cast<std::size_t>(i)] = negated.getValue(
-        openvdb::Coord(cell.x + (i >> 2 & 1), cell.y + (i >> 1 & 1), cell.z + (i & 1)));
+    const Coord at = corner(cell, i);
+    corners[static_cast<std::size_t>(i)] = negated.getValue(openvdb::Coord(at.x, at.y, at.z));
   }
   return corners;
 }
 
-/// -N at a point of a cell, trilinear.
+std::ptrdiff_t count_inside(const Corners& corners, float iso) {
+  return std::ranges::count_if(corners, [&](float n) { return n < iso; });
+}
+
+/// -N at a point of the cell, trilinear.
 double interpolate(const Corners& corners, Vec3d at) {
-  double sum = 0;
-  for (int i = 0; i < 8; ++i) {
-    const double wx = i >> 2 & 1 ? at.x : 1 - at.x;
-    const double wy = i >> 1 & 1 ? at.y : 1 - at.y;
-    const double wz = i & 1 ? at.z : 1 - at.z;
-    sum += wx * wy * wz * static_cast<double>(corners[static_cast<std::size_t>(i)]);
-  }
-  return sum;
+  return trilinear(at, [&](int i) { return corners[static_cast<std::size_t>(i)]; });
 }
 
 /// Where the leaf vertices lie.
@@ -153,8 +150,7 @@ void place(std::span<const Vec3d> leaf_vertices, const Field& field, Placed& pla
   for (const Vec3d p : leaf_vertices) {
     const Coord cell = cell_of(p);
     const Corners corners = corners_of(negated, cell);
-    const auto inside =
-        std::count_if(corners.begin(), corners.end(), [&](float n) { return n < iso; });
+    const auto inside = count_inside(corners, iso);
     if (inside > 0) cells.setValueOn(openvdb::Coord(cell.x, cell.y, cell.z));
     const bool on = 0 < inside && inside < 8;
     placed.off_site +=
@@ -180,18 +176,15 @@ Placed place(std::span<const Vec3d> leaf_vertices, const Field& field) {
 bool is_in_shape(Vec3d place, const Field& field, const openvdb::FloatGrid::ConstAccessor& negated,
                  std::span<const Coord> dropped) {
   const float iso = field.iso_value();
-  const auto count_inside = [&](const Corners& corners) {
-    return std::count_if(corners.begin(), corners.end(), [&](float n) { return n < iso; });
-  };
   Coord cell = cell_of(place);
   Corners corners = corners_of(negated, cell);
-  if (count_inside(corners) < 8 &&
+  if (count_inside(corners, iso) < 8 &&
       interpolate(corners, place - to_vec3d(cell)) > -field.threshold()) {
     return false;
   }
   if (dropped.empty()) return true;
   // The first surface along +x is the one that encloses the place.
-  while (count_inside(corners) == 8) {
+  while (count_inside(corners, iso) == 8) {
     ++cell.x;
     corners = corners_of(negated, cell);
   }
@@ -225,6 +218,27 @@ Metrics measure(const Field& field, std::span<const Vec3d> places, std::span<con
   metrics.dilated_voxels = voxels.inside + voxels.on - placed.cells->activeVoxelCount();
   metrics.off_site_sampled = placed.off_site;
   return metrics;
+}
+
+std::vector<Vec3d> extent_of(const Field& field) {
+  const auto to_local = [](const openvdb::Coord& c) { return to_vec3d({c.x(), c.y(), c.z()}); };
+  std::vector<Vec3d> points;
+  for (const Brick* brick : bricks_of(field)) {
+    Box box;
+    const float* const negated = brick->buffer().data();
+    for (openvdb::Index i = 0; i < Brick::SIZE; ++i) {
+      if (negated[i] < field.iso_value()) box.include(to_local(brick->offsetToGlobalCoord(i)));
+    }
+    if (box.empty()) continue;
+    for (const double x : {box.low.x, box.high.x}) {
+      for (const double y : {box.low.y, box.high.y}) {
+        for (const double z : {box.low.z, box.high.z}) {
+          points.push_back(field.lattice().world({x, y, z}));
+        }
+      }
+    }
+  }
+  return points;
 }
 
 }  // namespace leafhull

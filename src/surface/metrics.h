@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "density/field.h"
 #include "leafhull/shape.h"
@@ -19,5 +20,9 @@ Metrics measure(const Field& field, std::span<const Vec3d> places,
 /// surface passes through the cells `dropped`, ascending.
 double share_outside(const Field& field, std::span<const Vec3d> places,
                      std::span<const Coord> dropped);
+
+/// For each brick, the corners of the box around its samples inside, model units. Together they
+/// bound the surface to within a voxel.
+std::vector<Vec3d> extent_of(const Field& field);
 
 }  // namespace leafhull

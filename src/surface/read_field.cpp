@@ -5,12 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <string>
 #include <vector>
 
 #include "leafhull/error.h"
+#include "text/choice.h"
+#include "text/numbers.h"
 
 namespace leafhull {
 namespace {
@@ -25,11 +26,7 @@ constexpr const char* kThreshold = "threshold";
   throw Error(ErrorCode::input, file.string() + ": " + what, remedy);
 }
 
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.6g", value);
-  return text;
-}
+std::string number(double value) { return significant(value, 6); }
 
 /// The name of the file's density grid.
 std::string choose_grid(openvdb::io::File& file) {
@@ -41,11 +38,10 @@ std::string choose_grid(openvdb::io::File& file) {
   }
   if (std::find(names.begin(), names.end(), kGrid) != names.end()) return kGrid;
   if (names.size() == 1) return names.front();
-  std::string list;
-  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
   fail(file.filename(),
-       names.empty() ? "holds no grid of floats" : "has no grid 'density' but several: " + list,
-       "Give a .vdb file as leafhull extract --save-field writes it.");
+       names.empty() ? "holds no grid of floats"
+                     : "has no grid 'density' but several: " + joined(names, ", "),
+       "Give a .vdb file from leafhull extract --save-field.");
 }
 
 FloatGrid::Ptr read_grid(const fs::path& path) try {
@@ -58,7 +54,7 @@ FloatGrid::Ptr read_grid(const fs::path& path) try {
   return openvdb::gridPtrCast<FloatGrid>(file.readGrid(choose_grid(file)));
 } catch (const std::exception& error) {
   if (dynamic_cast<const Error*>(&error)) throw;
-  fail(path, std::string("cannot be read: ") + error.what(), "Give a whole OpenVDB file.");
+  fail(path, std::string("cannot be read: ") + error.what(), "Give an undamaged OpenVDB file.");
 }
 
 struct GridMap {
@@ -95,8 +91,7 @@ double threshold_of(const FloatGrid& grid, std::optional<double> asked, const fs
   const std::optional<double> stored = stored_threshold(grid);
   constexpr double kAsPrinted = 1e-5;
   if (stored && asked && !(std::abs(*stored - *asked) <= kAsPrinted * *stored)) {
-    throw Error(ErrorCode::usage,
-                file.string() + " was sampled for T = " + number(*stored) + " and no other",
+    throw Error(ErrorCode::usage, file.string() + " was sampled only for T = " + number(*stored),
                 "Leave --threshold out, or render the tree itself.");
   }
   const double threshold = stored ? *stored : asked.value_or(0);
@@ -106,7 +101,7 @@ double threshold_of(const FloatGrid& grid, std::optional<double> asked, const fs
   }
   if (!(threshold >= static_cast<double>(std::numeric_limits<float>::min())) ||
       !(threshold <= static_cast<double>(std::numeric_limits<float>::max()))) {
-    fail(file, "its threshold " + number(threshold) + " is no density", "Repair the file.");
+    fail(file, "its threshold " + number(threshold) + " is not a density", "Repair the file.");
   }
   return threshold;
 }
@@ -156,7 +151,7 @@ FieldFile read_field(const fs::path& file, std::optional<double> asked) {
   const FloatGrid::Ptr grid = read_grid(file);
   if (grid->getGridClass() == openvdb::GRID_LEVEL_SET || grid->background() != 0) {
     fail(file, "holds distances or another field, not a density that is 0 far away",
-         "Give a fog volume, such as leafhull extract --save-field writes.");
+         "Give a fog volume, such as one from leafhull extract --save-field.");
   }
   const auto [voxel_size, origin] = map_of(*grid, file);
   const double threshold = threshold_of(*grid, asked, file);
@@ -172,8 +167,7 @@ FieldFile read_field(const fs::path& file, std::optional<double> asked) {
   if (static_cast<double>(highest) < threshold && result.field.inside().empty()) {
     throw Error(ErrorCode::empty,
                 "the surface is empty: no sample of " + file.string() + " reaches the threshold " +
-                    number(threshold) + ", the highest being " +
-                    number(static_cast<double>(highest)),
+                    number(threshold) + "; the highest is " + number(static_cast<double>(highest)),
                 "Lower --threshold.");
   }
   return result;

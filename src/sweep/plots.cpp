@@ -2,7 +2,6 @@
 #include "sweep/plots.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <functional>
 #include <numeric>
@@ -11,6 +10,8 @@
 
 #include "sweep/sweep_plan.h"
 #include "sweep/tables.h"
+#include "text/choice.h"
+#include "text/numbers.h"
 
 namespace leafhull {
 namespace {
@@ -18,11 +19,7 @@ namespace {
 /// More than kMostLines lines are too many to tell apart; then at most kFewLines are drawn.
 constexpr std::size_t kMostLines = 12, kFewLines = 6;
 
-double number(std::string_view text) {
-  double value = 0;
-  std::from_chars(text.data(), text.data() + text.size(), value);
-  return value;
-}
+double number(std::string_view text) { return parsed<double>(text).value_or(0); }
 
 std::string file_of(const SweptOption& option) {
   return "plot-" + std::string(option.row->name) + ".svg";
@@ -78,9 +75,7 @@ bool is_drawn(const std::vector<std::string_view>& values, const Values& drawn) 
 std::string line_name(const SweepPlan& plan, std::size_t axis, std::size_t combination) {
   std::vector<std::string> others = labels(plan, combination);
   others.erase(others.begin() + static_cast<std::ptrdiff_t>(axis));
-  std::string name;
-  for (const std::string& other : others) name += (name.empty() ? "" : ", ") + other;
-  return name;
+  return joined(others, ", ");
 }
 
 ChartLine& line_named(std::vector<ChartLine>& lines, const std::string& name) {

@@ -2,11 +2,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <vector>
 
 #include "leafhull/series.h"
 #include "leafhull/sweep.h"
+#include "text/numbers.h"
 
 namespace leafhull {
 namespace {
@@ -18,21 +18,16 @@ constexpr std::array kRadii{1.5, 3.5, 9.0};
 constexpr double kClearlyLarger = 1.15, kErosionStep = 0.05;
 constexpr int kPictureEdge = 320;
 
-std::string percent(double share) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g%%", 100 * share);
-  return text;
-}
+std::string percent(double share) { return significant(100 * share, 3) + "%"; }
 
 std::vector<std::string> label(const Suggestion& choice) {
-  const auto pieces = static_cast<unsigned long long>(choice.report.counts.components);
-  char result[80];
-  std::snprintf(result, sizeof result, "R_max %.3g, %llu component%s",
-                choice.report.options.radius_max.value_or(0), pieces, pieces == 1 ? "" : "s");
+  const std::uint64_t pieces = choice.report.counts.components;
   return {"erosion " + percent(choice.erosion) + ", dilation " + percent(choice.dilation),
-          !choice.failure.empty() ? "cannot be had"
-          : choice.empty          ? "no surface"
-                                  : result};
+          !choice.failure.empty() ? "out of reach"
+          : choice.empty
+              ? "no surface"
+              : "R_max " + significant(choice.report.options.radius_max.value_or(0), 3) + ", " +
+                    std::to_string(pieces) + (pieces == 1 ? " component" : " components")};
 }
 
 double volume(const Box& box) { return box.size().x * box.size().y * box.size().z; }

@@ -12,6 +12,7 @@
 #include "leafhull/error.h"
 #include "leafhull/series.h"
 #include "output/destination.h"
+#include "output/report.h"
 #include "runs/read_file.h"
 #include "runs/run_folder.h"
 #include "sweep/journal.h"
@@ -80,7 +81,7 @@ std::vector<fs::path> results(const Files& files, const SweepPlan& plan) {
 void check_nothing_is_lost(const Files& files, const SweepPlan& plan) {
   for (const fs::path& file : results(files, plan)) {
     if (!fs::exists(fs::symlink_status(file))) continue;
-    throw Error(ErrorCode::usage, file.string() + " is there already, and not from this sweep",
+    throw Error(ErrorCode::usage, file.string() + " already exists and is not from this sweep",
                 "Name another folder, or give --restart to replace it.");
   }
 }
@@ -127,13 +128,6 @@ double largest_radius(const LeafSet& leaves, const SweepPlan& plan) {
     radius = std::max(radius, radius_max_in_model_units(leaves, options));
   }
   return radius;
-}
-
-/// Adds a stage before the total, and to it.
-void add_stage(std::vector<StageTime>& times, const std::string& stage, double seconds) {
-  if (times.empty()) times.push_back({"total", 0});
-  times.back().seconds += seconds;
-  times.insert(times.end() - 1, {stage, seconds});
 }
 
 void add_times(std::vector<StageTime>& sums, const std::vector<StageTime>& times) {
@@ -228,7 +222,7 @@ SweepSummary run_sweep(const LeafSet& leaves, const SweepPlan& plan, Device& dev
   if (folder.restart) remove_results(files, journal);
   if (!folder.restart && !journal.is_readable()) {
     throw Error(ErrorCode::usage,
-                files.journal().string() + " is damaged, or of another version of leafhull",
+                files.journal().string() + " is damaged or from another version of leafhull",
                 "Name another folder, or give --restart to replace that sweep.");
   }
   if (folder.restart || journal.rows().empty()) journal.begin(header);

@@ -11,6 +11,7 @@
 #include "output/report.h"
 #include "runs/difference.h"
 #include "runs/identity.h"
+#include "text/choice.h"
 
 namespace leafhull {
 namespace {
@@ -46,18 +47,16 @@ Json option_values(const SweepPlan& plan) {
 /// A list of values as a sentence names it.
 std::string listed(const Json& values) {
   constexpr std::size_t kMost = 60;
-  std::string text;
-  for (const Json& value : values) {
-    text += text.empty() ? "" : ", ";
-    text += value.is_null() ? "unset" : value.is_string() ? value.get<std::string>() : value.dump();
-  }
+  const std::string text = joined(values, ", ", [](const Json& value) {
+    return value.is_null() ? "unset" : value.is_string() ? value.get<std::string>() : value.dump();
+  });
   return text.size() <= kMost ? text : text.substr(0, text.rfind(',', kMost)) + ", ...";
 }
 
 std::string words_of(const Difference& differs, const Json& there, const Json& here) {
   const std::string part = differs.path.empty() ? "" : differs.path.front();
   if (part == "version") return "it was made by leafhull " + there.value("version", "?");
-  if (part == "leaves") return "its tree, or what counts as its leaves, is another";
+  if (part == "leaves") return "it has another tree or other leaves";
   if (part == "device") return "it was computed on " + there.value("device", "?");
   if (part != "options" || differs.path.size() == 1) return "it sweeps other options";
   const std::string& name = differs.path[1];
@@ -93,10 +92,9 @@ Json identity(const LeafSet& leaves, const SweepPlan& plan, const DeviceInfo& de
 void check_same_sweep(const Json& there, const Json& here, const std::filesystem::path& folder) {
   const std::optional<Difference> differs = first_difference(there, here);
   if (!differs) return;
-  throw Error(
-      ErrorCode::usage,
-      folder.string() + " holds a sweep of something else: " + words_of(*differs, there, here),
-      "Name another folder, or give --restart to replace that sweep.");
+  throw Error(ErrorCode::usage,
+              folder.string() + " holds another sweep: " + words_of(*differs, there, here),
+              "Name another folder, or give --restart to replace that sweep.");
 }
 
 std::vector<std::string_view> values_of(const SweepPlan& plan, std::size_t combination) {

@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <functional>
-#include <string_view>
-#include <utility>
 #include <vector>
 
 #include "output/report.h"
@@ -18,12 +16,6 @@ struct Column {
   std::string head;
   std::function<Json(std::size_t combination, const Json& row)> entry;
 };
-
-std::string key_of(const SweptOption& option) {
-  std::string key(option.row->name);
-  std::replace(key.begin(), key.end(), '-', '_');
-  return key;
-}
 
 /// A cell of the table, quoted as RFC 4180 says where it has to be.
 std::string cell(const Json& value) {
@@ -47,35 +39,30 @@ std::vector<std::string> keys(const std::map<std::size_t, Json>& rows, const cha
   return keys;
 }
 
-Column column_of(std::string head, const char* part, const std::string& key) {
-  return {std::move(head),
-          [part, key](std::size_t, const Json& row) { return row[part].value(key, Json()); }};
-}
-
 std::vector<Column> columns(const SweepPlan& plan, const std::map<std::size_t, Json>& rows) {
   std::vector<Column> columns;
   std::vector<std::string> taken = {"leaves", "ellipse", "threshold"};
   for (std::size_t i = 0; i < plan.swept.size(); ++i) {
-    taken.push_back(key_of(plan.swept[i]));
+    taken.push_back(to_key(plan.swept[i].row->name));
     columns.push_back({taken.back(), [&plan, i](std::size_t combination, const Json&) {
                          return Json(values_of(plan, combination)[i]);
                        }});
   }
-  columns.push_back(column_of("T", "parameters", "threshold"));
-  for (const char* part : {"metrics", "counts"}) {
-    for (const std::string& key : keys(rows, part)) columns.push_back(column_of(key, part, key));
-  }
-  for (const std::string& key : keys(rows, "density")) {
-    columns.push_back(column_of("density_" + key, "density", key));
-  }
+  const auto add = [&](const std::string& head, const char* part, const std::string& key) {
+    columns.push_back(
+        {head, [part, key](std::size_t, const Json& row) { return row[part].value(key, Json()); }});
+  };
+  const auto add_all = [&](const char* part, const std::string& prefix = {}) {
+    for (const std::string& key : keys(rows, part)) add(prefix + key, part, key);
+  };
+  add("T", "parameters", "threshold");
+  add_all("metrics");
+  add_all("counts");
+  add_all("density", "density_");
   for (const std::string& key : keys(rows, "parameters")) {
-    if (std::find(taken.begin(), taken.end(), key) == taken.end()) {
-      columns.push_back(column_of(key, "parameters", key));
-    }
+    if (std::ranges::find(taken, key) == taken.end()) add(key, "parameters", key);
   }
-  for (const std::string& key : keys(rows, "seconds")) {
-    columns.push_back(column_of("seconds_" + key, "seconds", key));
-  }
+  add_all("seconds", "seconds_");
   for (const char* key : {"empty", "failure", "picture"}) {
     columns.push_back(
         {key, [key](std::size_t, const Json& row) { return row.value(key, Json()); }});

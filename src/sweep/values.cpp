@@ -4,13 +4,13 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <optional>
 #include <set>
 #include <type_traits>
 
 #include "leafhull/error.h"
 #include "sweep/sweep_plan.h"
+#include "text/numbers.h"
 
 namespace leafhull {
 namespace {
@@ -62,34 +62,28 @@ std::vector<std::string_view> split(std::string_view text, char separator) {
 }
 
 double number(const OptionRow& row, std::string_view text, std::string_view part) {
-  double value = 0;
-  const char* end = part.data() + part.size();
-  const auto result = std::from_chars(part.data(), end, value);
-  if (result.ec != std::errc() || result.ptr != end || !std::isfinite(value)) {
+  const std::optional<double> value = parsed<double>(part);
+  if (!value || !std::isfinite(*value)) {
     refuse(row, text, "is neither a range nor a list of numbers",
            "Give first:last:step such as 1.5:2.5:0.25, or a list such as 1.5,2,2.5.");
   }
-  return value;
+  return *value;
 }
 
 /// The fewest digits that give the same number back, without an exponent where people write none.
-std::string shortest(double value) {
+std::string written(double value) {
   const double size = std::abs(value);
-  const bool plain = size == 0 || (size >= 1e-6 && size < 1e15);
-  std::array<char, 32> buffer;
-  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value,
-                                 plain ? std::chars_format::fixed : std::chars_format::general)
-                       .ptr;
-  return {buffer.data(), end};
+  if (size != 0 && (size < 1e-6 || size >= 1e15)) return shortest(value);
+  std::array<char, 32> text;
+  return {
+      text.data(),
+      std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::fixed).ptr};
 }
 
 /// `value` without the digits of binary rounding, in a range that reaches to `scale`.
 double clean(double value, double scale) {
   const int decimals = std::max(0, kDigits - 1 - static_cast<int>(std::floor(std::log10(scale))));
-  std::array<char, 400> buffer;  // the largest double has 309 digits before the point
-  const int length = std::snprintf(buffer.data(), buffer.size(), "%.*f", decimals, value);
-  std::from_chars(buffer.data(), buffer.data() + length, value);
-  return value == 0 ? 0 : value;  // no -0
+  return *parsed<double>(fixed(value, decimals)) + 0.0;  // no -0
 }
 
 std::vector<std::string> range(const OptionRow& row, std::string_view text,
@@ -101,17 +95,17 @@ std::vector<std::string> range(const OptionRow& row, std::string_view text,
   if (step <= 0) refuse(row, text, "has a step that is not above zero", "Give one such as 0.25.");
   if (first > last) {
     refuse(row, text, "runs backwards",
-           "Put the lower end first: " + shortest(last) + ":" + shortest(first) + ":" +
-               shortest(step) + ".");
+           "Put the lower end first: " + written(last) + ":" + written(first) + ":" +
+               written(step) + ".");
   }
   const double steps = std::floor((last - first) / step + kSlack);
   if (!(steps < kMostCombinations)) {
-    refuse(row, text, "has " + shortest(steps + 1) + " values, more than a sweep can hold",
+    refuse(row, text, "has " + written(steps + 1) + " values, more than a sweep can hold",
            "Take a larger step.");
   }
   const double scale = std::max({std::abs(first), std::abs(last), step});
   std::vector<std::string> values;
-  for (int i = 0; i <= steps; ++i) values.push_back(shortest(clean(first + i * step, scale)));
+  for (int i = 0; i <= steps; ++i) values.push_back(written(clean(first + i * step, scale)));
   return values;
 }
 
@@ -173,7 +167,7 @@ SweptOption swept_option(const OptionRow& row, std::string_view text) {
   if (is_range) {
     values = range(row, text, numbers);
   } else {
-    std::transform(numbers.begin(), numbers.end(), std::back_inserter(values), shortest);
+    std::transform(numbers.begin(), numbers.end(), std::back_inserter(values), written);
   }
   refuse_twice(row, text, values);
   return {percent && !fraction ? &option_row(row.percent) : &row, values};
@@ -184,7 +178,7 @@ std::size_t combination_count(std::span<const SweptOption> swept) {
   for (const SweptOption& option : swept) count *= static_cast<double>(option.values.size());
   if (count > kMostCombinations) {
     throw Error(ErrorCode::usage,
-                "these are " + shortest(count) + " combinations, more than a sweep can hold",
+                "these are " + written(count) + " combinations, more than a sweep can hold",
                 "Take larger steps, or sweep fewer options at once.");
   }
   return static_cast<std::size_t>(count);

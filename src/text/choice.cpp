@@ -49,14 +49,4 @@ std::string_view nearest(std::string_view text, std::span<const std::string_view
   return best;
 }
 
-std::string joined(std::span<const std::string_view> words, std::string_view separator) {
-  std::string text;
-  for (const std::string_view word : words) {
-    if (word.empty()) continue;
-    if (!text.empty()) text += separator;
-    text += word;
-  }
-  return text;
-}
-
 }  // namespace leafhull

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
+#include <iterator>
 #include <span>
 #include <string>
 #include <string_view>
@@ -17,6 +19,17 @@ std::size_t choice(std::string_view flag, std::string_view text,
 std::string_view nearest(std::string_view text, std::span<const std::string_view> valid);
 
 /// The words with `separator` between them; empty ones are left out.
-std::string joined(std::span<const std::string_view> words, std::string_view separator);
+/// @param word what of each is its word.
+template <class Each, class Word = std::identity>
+std::string joined(const Each& all, std::string_view separator, Word word = {}) {
+  std::string text;
+  for (const auto& each : all) {
+    const auto& part = std::invoke(word, each);
+    if (std::empty(part)) continue;
+    if (!text.empty()) text += separator;
+    text += part;
+  }
+  return text;
+}
 
 }  // namespace leafhull

@@ -3,16 +3,14 @@
 
 #include <system_error>
 
+#include "text/text.h"
+
 namespace leafhull {
 
 namespace fs = std::filesystem;
 
 std::string lower_extension(const fs::path& file) {
-  std::string extension = file.extension().string();
-  for (char& c : extension) {
-    if (c >= 'A' && c <= 'Z') c += 'a' - 'A';
-  }
-  return extension;
+  return in_lower_case(file.extension().string());
 }
 
 bool looks_like_file(const std::string& word) {

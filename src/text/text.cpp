@@ -62,6 +62,13 @@ void append_utf8(char32_t character, std::string& text) {
   add(0x80 | (character & 0x3F));
 }
 
+std::string in_lower_case(std::string text) {
+  for (char& c : text) {
+    if (c >= 'A' && c <= 'Z') c += 'a' - 'A';
+  }
+  return text;
+}
+
 std::string printable(std::string_view text, std::size_t longest) {
   const bool cut = text.size() > longest;
   std::string line(text.substr(0, longest));

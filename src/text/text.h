@@ -19,6 +19,9 @@ std::u32string decode_utf8(std::string_view text);
 
 void append_utf8(char32_t character, std::string& text);
 
+/// With a to z for A to Z.
+std::string in_lower_case(std::string text);
+
 /// Text from a file made fit for a one-line message: control characters replaced, long text cut.
 std::string printable(std::string_view text, std::size_t longest = 80);
 

@@ -13,18 +13,8 @@ namespace {
 /// Counts modulo 2^128: sums and products on the way may exceed it, the volume does not.
 __extension__ typedef unsigned __int128 Wide;  // NOLINT(modernize-use-using)
 
-struct WideVec {
-  Wide x, y, z;
-  friend WideVec operator+(WideVec a, WideVec b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-};
-
-Wide dot(WideVec a, WideVec b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-WideVec cross(WideVec a, WideVec b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-
 /// A point relative to the origin of the global lattice.
-WideVec exact(Vec3f p, const Lattice& lattice) {
+Vec3<Wide> exact(Vec3f p, const Lattice& lattice) {
   const auto at = [](std::int64_t anchor, float v) {
     const auto units = static_cast<std::int64_t>(static_cast<double>(v) * 0x1p14);
     return static_cast<Wide>(static_cast<ExactVolume>((anchor << 14) + units));
@@ -39,7 +29,7 @@ std::vector<std::pair<std::uint32_t, ExactVolume>> exact_volumes(
     const Polygons& polygons, const Lattice& lattice, const std::vector<std::uint32_t>& root) {
   std::vector<Wide> part(polygons.faces.size());
   tbb::parallel_for(std::size_t{0}, part.size(), [&](std::size_t f) {
-    std::array<WideVec, 4> c;
+    std::array<Vec3<Wide>, 4> c;
     for (std::size_t i = 0; i < 4; ++i)
       c[i] = exact(polygons.points[polygons.faces[f][i]], lattice);
     const auto& [p, q, r, s] = c;

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <functional>
-#include <span>
 
 #include "leafhull/ranks.h"
 #include "tiles/compute_tile.h"

@@ -5,10 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "density/lattice.h"
 #include "leafhull/error.h"
+#include "text/numbers.h"
 #include "tiles/tree_map.h"
 
 namespace leafhull {
@@ -30,6 +30,8 @@ double farthest(const Box& box) {
   return std::max({std::fabs(box.low.x), std::fabs(box.low.y), std::fabs(box.low.z),
                    std::fabs(box.high.x), std::fabs(box.high.y), std::fabs(box.high.z)});
 }
+
+std::string short_number(double value) { return significant(value, 3); }
 
 }  // namespace
 
@@ -78,14 +80,8 @@ void check_room_for_tiles(double tiles, double voxel_size, const std::filesystem
   if (tiles <= room) return;
   throw Error(ErrorCode::usage,
               "voxels of " + short_number(voxel_size) + " need up to " + short_number(tiles) +
-                  " tiles, and there is room for " + short_number(room) + " in " + folder.string(),
+                  " tiles, but there is room for " + short_number(room) + " in " + folder.string(),
               "Raise --voxel-size or --tile.");
-}
-
-std::string short_number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value);
-  return text;
 }
 
 }  // namespace leafhull

@@ -2,9 +2,7 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
 #include <span>
-#include <string>
 
 #include "leafhull/leaves.h"
 #include "leafhull/options.h"
@@ -26,8 +24,5 @@ void check_tile_count(const Scene& scene, std::span<const LeafSet> models,
 
 /// @throws Error usage, as above.
 void check_room_for_tiles(double tiles, double voxel_size, const std::filesystem::path& folder);
-
-/// A number with three digits.
-std::string short_number(double value);
 
 }  // namespace leafhull

@@ -6,6 +6,7 @@
 #include <unordered_map>
 
 #include "leafhull/error.h"
+#include "text/numbers.h"
 #include "tiles/tile_count.h"
 #include "tiles/tree_map.h"
 
@@ -148,9 +149,9 @@ int tile_edge(std::span<const ForestLevel> levels, std::optional<int> asked, std
   throw Error(
       ErrorCode::usage,
       "two of the densest tiles need about " +
-          short_number((needed + static_cast<double>(memory) - left) / kGiB) +
+          significant((needed + static_cast<double>(memory) - left) / kGiB, 3) +
           " GiB with the models, and --memory is " +
-          short_number(static_cast<double>(memory) / kGiB) + " GiB",
+          significant(static_cast<double>(memory) / kGiB, 3) + " GiB",
       asked ? "Raise --memory, or lower --tile." : "Raise --memory, or lower --voxel-size.");
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tiles/tree_map.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace leafhull {

@@ -107,6 +107,14 @@ struct Passes::Impl {
     launch(name, cl::NDRange(values() / lanes), cl::NDRange(kWorkItems), arguments...);
   }
 
+  /// The plane that such a pass makes.
+  template <class... Arguments>
+  Plane made(const char* name, const Arguments&... arguments) {
+    Plane out = plane();
+    over_plane(name, arguments..., out);
+    return out;
+  }
+
   /// Blurs the columns of `in` and transposes the result.
   void blur_turning(const Plane& in, int in_pitch, int in_rows, int rows_within,
                     const cl::Buffer& weights, int reach, const Plane& out) {
@@ -195,9 +203,7 @@ SeenPlanes Passes::see(const render::Buffers& buffers, float sky, float wrap) {
 }
 
 Plane Passes::ground(float size, Vec2f foot, Vec2f reach, std::uint32_t seed) {
-  Plane out = impl_->plane();
-  impl_->over_plane("ground", impl_->pitch, size, foot.x, foot.y, reach.x, reach.y, seed, out);
-  return out;
+  return impl_->made("ground", impl_->pitch, size, foot.x, foot.y, reach.x, reach.y, seed);
 }
 
 FlowPlanes Passes::flow(const Plane& near, std::span<const Plane, 3> places, float eddies,
@@ -228,44 +234,32 @@ Plane Passes::blur(const Plane& in, float sigma) {
 }
 
 Plane Passes::darkness(const Plane& light, const Plane& seen) {
-  Plane out = impl_->plane();
-  impl_->over_plane("darkness", light, seen, out);
-  return out;
+  return impl_->made("darkness", light, seen);
 }
 
 Plane Passes::extend(const Plane& seen, const Plane& value, const Plane& seen_near,
                      const Plane& value_near) {
-  Plane out = impl_->plane();
-  impl_->over_plane("extend", seen, value, seen_near, value_near, out);
-  return out;
+  return impl_->made("extend", seen, value, seen_near, value_near);
 }
 
 Plane Passes::visibility(const Plane& far, const Plane& seen_around, const Plane& far_around,
                          float reach) {
-  Plane out = impl_->plane();
-  impl_->over_plane("visibility", far, seen_around, far_around, reach, out);
-  return out;
+  return impl_->made("visibility", far, seen_around, far_around, reach);
 }
 
 Plane Passes::mask(const Plane& plane, const Plane& by, float amount) {
-  Plane out = impl_->plane();
-  impl_->over_plane("mask", plane, by, amount, out);
-  return out;
+  return impl_->made("mask", plane, by, amount);
 }
 
 Plane Passes::layer(const Plane& rho, const Plane& within, const PaperPlanes& paper,
                     const FlowPlanes& flow, const Edge& edge) {
-  Plane out = impl_->plane();
-  impl_->over_plane("layer", rho, within, paper.height, paper.sway, flow.breaking, flow.wetness,
-                    edge.level, edge.softness, edge.lost, edge.dryness, edge.wobble,
-                    edge.raggedness, out);
-  return out;
+  return impl_->made("layer", rho, within, paper.height, paper.sway, flow.breaking, flow.wetness,
+                     edge.level, edge.softness, edge.lost, edge.dryness, edge.wobble,
+                     edge.raggedness);
 }
 
 Plane Passes::darken_edges(const Plane& alpha, const Plane& around, float amount) {
-  Plane out = impl_->plane();
-  impl_->over_plane("darken_edges", alpha, around, amount, out);
-  return out;
+  return impl_->made("darken_edges", alpha, around, amount);
 }
 
 void Passes::dilute(const Plane& density, const Plane& turbulence, const Plane& dark,
@@ -285,9 +279,7 @@ void Passes::glaze(const Plane& density, const Plane& warmth, const Pigments& pi
 }
 
 Plane Passes::wet(const Plane& wetness, const Plane& alpha, float amount) {
-  Plane out = impl_->plane();
-  impl_->over_plane("wet", wetness, alpha, amount, out);
-  return out;
+  return impl_->made("wet", wetness, alpha, amount);
 }
 
 void Passes::bleed(const Plane& absorbance, const Plane& around, const Plane& wet) {

@@ -4,12 +4,13 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <iomanip>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <type_traits>
 
+#include "colour/colour.h"
 #include "leafhull/error.h"
+#include "text/choice.h"
+#include "text/numbers.h"
 #include "text/text.h"
 
 namespace leafhull {
@@ -40,19 +41,13 @@ std::string in_quotes(std::string_view name) {
   return text.append(printable(name)).append("'");
 }
 
-std::string names() {
-  std::string text;
-  for (const std::string_view name : kNames) text += (text.empty() ? "" : ", ") + std::string(name);
-  return text;
-}
-
 Vec3f parse_color(const Json& value, const std::string& key, const Source& source) {
   const auto text = value.is_string() ? value.get<std::string>() : std::string();
   unsigned r = 0, g = 0, b = 0;
   const bool hex = text.size() == 7 && text[0] == '#' &&
                    text.find_first_not_of("0123456789abcdefABCDEF", 1) == std::string::npos;
   if (!hex || std::sscanf(text.c_str(), "#%2x%2x%2x", &r, &g, &b) != 3) {
-    source.fail("the key " + in_quotes(key) + " is " + value.dump() + ", which is no colour",
+    source.fail("the key " + in_quotes(key) + " is " + value.dump() + ", which is not a colour",
                 "Give it as in \"#7a9f3c\".");
   }
   return Vec3f(static_cast<float>(r), static_cast<float>(g), static_cast<float>(b)) / 255.0f;
@@ -62,7 +57,7 @@ double parse_number(const Json& value, const StyleKey& key, const std::string& n
                     const Source& source) {
   const std::string remedy = "It is a number in " + std::string(key.range) + ".";
   if (!value.is_number()) {
-    source.fail("the key " + in_quotes(name) + " is " + value.dump() + ", which is no number",
+    source.fail("the key " + in_quotes(name) + " is " + value.dump() + ", which is not a number",
                 remedy);
   }
   const double number = value.get<double>();
@@ -100,14 +95,12 @@ const Row* find(std::span<const Row> rows, std::string_view name) {
 
 template <class Row>
 std::string listing(std::span<const Row> rows) {
-  std::string text;
-  for (const Row& row : rows) text += (text.empty() ? "" : ", ") + std::string(row.name);
-  return text;
+  return joined(rows, ", ", &Row::name);
 }
 
 void read_wash(Wash& wash, const std::string& name, const Json& object, const Source& source) {
   if (!object.is_object()) {
-    source.fail("the key " + in_quotes(name) + " is " + object.dump() + ", which is no wash",
+    source.fail("the key " + in_quotes(name) + " is " + object.dump() + ", which is not a wash",
                 "A wash is an object with some of the keys " + listing(wash_keys()) + ".");
   }
   for (const auto& [key, value] : object.items()) {
@@ -161,7 +154,7 @@ std::string base_of(const Json& json, const Source& source) {
     if (base.is_string() && base.get<std::string>() == name) return std::string(name);
   }
   source.fail("the key 'base' is " + base.dump() + ", which names no style",
-              "There are: " + names() + ".");
+              "There are: " + joined(kNames, ", ") + ".");
 }
 
 std::string_view text_of(std::string_view name) {
@@ -169,7 +162,7 @@ std::string_view text_of(std::string_view name) {
   if (name == "wet") return style_wet;
   if (name == "dry") return style_dry;
   throw Error(ErrorCode::usage, "there is no watercolour style " + in_quotes(name),
-              "There are: " + names() + ".");
+              "There are: " + joined(kNames, ", ") + ".");
 }
 
 /// @throws Error internal: a key is not there.
@@ -189,19 +182,18 @@ void require_all_keys(const Json& json, std::string_view name) {
 /// Writes a row of the table; colours are written as in style files.
 template <class Target>
 std::string table_row(const StyleKey& key, const std::string& name, const Target& target) {
-  std::ostringstream row;
-  row << "| `" << name << "` | " << key.range << " | ";
+  std::string value;
   if (const auto* color = std::get_if<Vec3f Target::*>(&key.member)) {
+    const auto byte = [](float part) { return static_cast<std::uint8_t>(std::lround(255 * part)); };
     const Vec3f c = target.*(*color);
-    row << '#' << std::hex << std::setfill('0');
-    for (const float part : {c.x, c.y, c.z}) row << std::setw(2) << std::lround(255 * part);
+    value = hex_of(std::array{byte(c.x), byte(c.y), byte(c.z)});
   } else if (const auto* number = std::get_if<float Target::*>(&key.member)) {
-    row << target.*(*number);
+    value = significant(double{target.*(*number)}, 6);
   } else if constexpr (std::is_same_v<Target, Style>) {
-    row << target.seed;
+    value = std::to_string(target.seed);
   }
-  row << " | " << key.help << " |\n";
-  return row.str();
+  return "| `" + name + "` | " + std::string(key.range) + " | " + value + " | " +
+         std::string(key.help) + " |\n";
 }
 
 }  // namespace

@@ -77,14 +77,9 @@ Wash hued(Wash wash, Vec3f linear) {
   const double chroma = std::hypot(wanted.y, wanted.z);
   if (!(chroma > 0)) return wash;
   for (Vec3f* pigment : {&wash.cool, &wash.warm}) {
-    const Vec3d lab =
-        oklab_of(Vec3f(Vec3d(linear_of_srgb(double{pigment->x}), linear_of_srgb(double{pigment->y}),
-                             linear_of_srgb(double{pigment->z}))));
+    const Vec3d lab = oklab_of_srgb(*pigment);
     const double of_pigment = std::max(std::hypot(lab.y, lab.z), kChroma * chroma);
-    const Vec3f shown =
-        shown_oklab({lab.x, of_pigment * wanted.y / chroma, of_pigment * wanted.z / chroma});
-    *pigment = Vec3f(Vec3d(srgb_of_linear(double{shown.x}), srgb_of_linear(double{shown.y}),
-                           srgb_of_linear(double{shown.z})));
+    *pigment = shown_srgb({lab.x, of_pigment * wanted.y / chroma, of_pigment * wanted.z / chroma});
   }
   return wash;
 }

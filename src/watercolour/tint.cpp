@@ -15,14 +15,8 @@ using Chroma = std::complex<double>;  // the two axes of hue of Oklab
 constexpr double kLeastChroma = 0.3, kMostChroma = 1.3;  // of the style's own
 constexpr double kShadow = 0.5;
 
-Vec3d lab_of(Vec3f srgb) {
-  return oklab_of(Vec3f(Vec3d(linear_of_srgb(double{srgb.x}), linear_of_srgb(double{srgb.y}),
-                              linear_of_srgb(double{srgb.z}))));
-}
-
 Vec3f srgb_of(double lightness, Chroma chroma) {
-  const Vec3f linear = shown_oklab({lightness, chroma.real(), chroma.imag()});
-  return Vec3f(Vec3d(srgb_of_linear(linear.x), srgb_of_linear(linear.y), srgb_of_linear(linear.z)));
+  return shown_srgb({lightness, chroma.real(), chroma.imag()});
 }
 
 Chroma chroma_of(Vec3d lab) { return {lab.y, lab.z}; }
@@ -37,15 +31,15 @@ Style tinted(Style style, Vec3f leaves) {
   const Chroma turn = share * (wanted / made_for) / std::abs(wanted / made_for);
 
   const Chroma tone =
-      (chroma_of(lab_of(style.tone.cool)) + chroma_of(lab_of(style.tone.warm))) / 2.0;
+      (chroma_of(oklab_of_srgb(style.tone.cool)) + chroma_of(oklab_of_srgb(style.tone.warm))) / 2.0;
   const Chroma shift = kShadow * (turn * tone - tone);
   for (Vec3f* pigment : {&style.shadow.cool, &style.shadow.warm}) {
-    const Vec3d lab = lab_of(*pigment);
+    const Vec3d lab = oklab_of_srgb(*pigment);
     *pigment = srgb_of(lab.x, chroma_of(lab) + shift);
   }
   for (Wash* wash : {&style.ambient, &style.tone, &style.leaves}) {
     for (Vec3f* pigment : {&wash->cool, &wash->warm}) {
-      const Vec3d lab = lab_of(*pigment);
+      const Vec3d lab = oklab_of_srgb(*pigment);
       *pigment = srgb_of(lab.x, turn * chroma_of(lab));
     }
   }

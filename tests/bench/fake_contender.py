@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""fake_contender.py NAME LOG [FAULT]: answers as a contender does and writes its name to LOG at
-each run. FAULT: refuse (an error in place of ready), crash:N (it ends at run N), mute (it never
-answers), slow (its runs say that they take a minute)."""
+"""fake_contender.py NAME LOG [FAULT]: answers like a contender and writes its name to LOG at each
+run. FAULT: refuse (sends an error instead of ready), crash:N (exits at run N), mute (never
+answers), slow (reports that each run takes a minute)."""
 
 import json
 import sys

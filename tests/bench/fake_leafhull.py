@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""fake_leafhull.py VERB ...: answers as leafhull does about forests: a tree has as many leaf
-vertices as its file has bytes, a scene names its trees in turn, and a forest is a file of 1,000
-bytes. A forest of the scene `broken` ends with an error."""
+"""fake_leafhull.py VERB ...: answers like leafhull about forests. A tree has as many leaf vertices
+as its file has bytes, a scene names its trees in turn, and a forest is a file of 1,000 bytes. The
+scene `broken` fails with an error."""
 
 import argparse
 import itertools

@@ -26,7 +26,7 @@ MIB = 2**20
 
 
 def canopies(seconds, peak):
-    """Results in which `seconds` and `peak` are functions of the trees."""
+    """Results whose `seconds` and `peak` are functions of the number of trees."""
     values = {}
     for count in forest_plan.SERIES:
         key = (f"forest-birch-{count}", forest_plan.CANOPY)
@@ -105,7 +105,7 @@ class CardTreeTest(unittest.TestCase):
 
 
 class RunTest(unittest.TestCase):
-    """A bench of forests with a leafhull that only pretends."""
+    """A bench of forests with a fake leafhull."""
 
     def setUp(self):
         folder = tempfile.TemporaryDirectory()

@@ -87,7 +87,7 @@ class PicturesTest(unittest.TestCase):
 
 class PicturePlanTest(unittest.TestCase):
     def heats(self):
-        """Those of which `--case pictures` leaves any."""
+        """The heats that `--case pictures` runs, with only their matching entries."""
         found = ([e for e in heat if re.search("pictures", e.case)] for heat in plan.heats())
         return [heat for heat in found if heat]
 

@@ -14,7 +14,7 @@ CASE = "birch-128-painterly"
 
 
 def results_of(values, about=None):
-    """values: a list of values by case, contender and part."""
+    """`values` holds a list of values for each case, contender and part."""
     records = [
         Record(case, contender, "1", number, part, value, "s")
         for (case, contender, part), rounds in values.items()
@@ -48,7 +48,7 @@ class SlopesTest(unittest.TestCase):
         self.assertGreater(slopes.departure_from_line(points), 0.5)
 
     def test_a_fixed_cost_is_not_negative(self):
-        # The line through these is 2 x - 10: it would depart from none.
+        # They lie on the line 2 x - 10, but a fixed cost may not be negative.
         points = {10: 10, 20: 30, 30: 50}
         self.assertGreater(slopes.departure_from_line(points), 0.2)
 

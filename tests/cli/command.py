@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Runs the command LEAFHULL in a folder of its own."""
+"""Runs the command LEAFHULL in its own folder."""
 
 import os
 import pathlib
@@ -44,7 +44,7 @@ class CommandTest(unittest.TestCase):
         return result
 
     def fail_with(self, code, words, *arguments, **options):
-        """The command ends with `code`, one clear line that holds `words`, and no output."""
+        """The command exits with `code`, prints one error that holds `words`, and writes no file."""
         result = self.run_command(*arguments, **options)
         self.assertEqual(result.returncode, code, f"{arguments}: {result.stderr}")
         lines = result.stderr.splitlines()

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Loaded before the C library (LD_PRELOAD): writes down the calls that decide what a power cut
-// leaves, a line each, into the file that DISK_CALLS names. Where DISK_CALLS_FAIL is set, no fsync
-// succeeds.
+// Loaded before the C library (LD_PRELOAD). Logs the calls that decide what a power cut leaves, one
+// per line, to the file that DISK_CALLS names. If DISK_CALLS_FAIL is set, every fsync fails.
 #include <fcntl.h>
 #include <sys/syscall.h>
 #include <unistd.h>
@@ -23,7 +22,7 @@ std::string path_of(int descriptor) {
   return {path.data(), static_cast<std::size_t>(size > 0 ? size : 0)};
 }
 
-/// Keeps errno.
+/// Logs a call; leaves errno unchanged.
 void note(const std::string& call, const std::string& file, const std::string& name = "") {
   const int reason = errno;
   static const char* const log = std::getenv("DISK_CALLS");

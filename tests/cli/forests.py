@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Small forests, and readers for what leafhull forest makes of them."""
+"""Small forests, and readers for the output of leafhull forest."""
 
 import collections
 import os
@@ -22,7 +22,7 @@ def mpirun(ranks):
 
 
 def files_in(folder):
-    """The bytes of every file."""
+    """The bytes of every file, by its path."""
     return {
         str(path.relative_to(folder)): path.read_bytes()
         for path in sorted(pathlib.Path(folder).rglob("*"))
@@ -31,7 +31,7 @@ def files_in(folder):
 
 
 def read_glb(path):
-    """The one mesh of a GLB: vertices, position and normal, and triangles of their numbers."""
+    """The one mesh of a GLB: vertices (position and normal) and triangles (numbers of vertices)."""
     document, binary = glb.unpack(path.read_bytes())
     node = next(n for n in document["nodes"] if "mesh" in n)
     origin = node.get("translation", [0, 0, 0])
@@ -70,7 +70,7 @@ def read_ply(path):
 
 
 def tiles_of(folder, level=0):
-    """The tiles of a level, by where they are."""
+    """The tiles of a level, by position."""
     return {
         tuple(map(int, path.stem.split("_"))): read_glb(path)
         for path in (folder / "tiles" / str(level)).glob("*.glb")
@@ -78,7 +78,7 @@ def tiles_of(folder, level=0):
 
 
 def unordered(surface):
-    """What does not depend on the order: how often there is a vertex, or a triangle of vertices."""
+    """How often each vertex, and each triangle of vertices, occurs, whatever their order."""
     triangles = collections.Counter()
     for numbers in surface.triangles:
         corners = [surface.vertices[i] for i in numbers]
@@ -106,7 +106,7 @@ class ForestTest(CommandTest):
         return scene
 
     def stand(self, *rows, name="stand.csv"):
-        """A scene of rows that end alike."""
+        """A scene of rows that all have the same columns."""
         head = "model,x,y,z,yaw,scale"[: None if rows and rows[0].count(",") == 5 else 11]
         return self.input(name, "\n".join([head, *rows, ""]).encode())
 
@@ -114,13 +114,13 @@ class ForestTest(CommandTest):
         return self.succeed("forest", scene, "-o", self.out / folder, *flags, **options)
 
     def assert_same_files(self, folder, expected):
-        """Names first: bytes alone tell little."""
+        """Compares names before bytes, so that a failure is readable."""
         found = files_in(folder)
         self.assertEqual(sorted(found), sorted(expected))
         self.assertEqual([name for name in found if found[name] != expected[name]], [])
 
     def assert_closed(self, surface):
-        """Every edge is there once in each direction, so no vertex of a seam is there twice."""
+        """Every edge occurs once in each direction, so no vertex of a seam occurs twice."""
         self.assertEqual(
             {i for triangle in surface.triangles for i in triangle},
             set(range(len(surface.vertices))),

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Small GLB files: leaves as square cards, and a reader for what comes out."""
+"""Small GLB files with square cards as leaves, and a reader for the output."""
 
 import json
 import random
@@ -9,7 +9,7 @@ FLOAT, UINT32 = 5126, 5125
 
 
 def pack(document, binary=b""):
-    """A GLB of a glTF document and its one buffer."""
+    """Packs a glTF document and its one buffer into a GLB."""
     text = json.dumps(document).encode()
     text += b" " * (-len(text) % 4)
     binary += b"\0" * (-len(binary) % 4)
@@ -26,7 +26,7 @@ def unpack(data):
 
 
 def cards(count=300, radius=2.0, half=0.125, seed=1):
-    """Square cards in a ball, on coordinates that floats hold exactly even 10 km away."""
+    """Square cards in a ball, at coordinates that floats hold exactly even 10 km away."""
     pick = random.Random(seed)
     positions, triangles = [], []
     while len(positions) < 4 * count:
@@ -47,7 +47,7 @@ def cards(count=300, radius=2.0, half=0.125, seed=1):
 def tree(
     positions, triangles, *, material="leaf", alpha="MASK", translation=(0, 0, 0), change=None
 ):
-    """One primitive of one node. `change` may edit the document before it is packed."""
+    """A GLB with one primitive in one node. `change` may edit the document before it is packed."""
     vertices = b"".join(struct.pack("<3f", *p) for p in positions)
     indices = b"".join(struct.pack("<3I", *t) for t in triangles)
     document = {

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The pixels of a PNG file of 8-bit RGB."""
+"""Reads the pixels of an 8-bit RGB PNG file."""
 
 import struct
 import zlib

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Small pictures of the ash, as leafhull render draws them."""
+"""Small pictures of the ash from leafhull render."""
 
 import json
 

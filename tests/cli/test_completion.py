@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Shells complete the command, and the manual page tells all that the help tells."""
+"""Shells complete the command, and the manual page has everything that the help has."""
 
 import os
 import re
@@ -52,7 +52,7 @@ class Completion(CompletionTest):
 
 class Bash(CompletionTest):
     def complete(self, *words):
-        """What bash offers in place of the last word, in a folder with some files."""
+        """The completions that bash offers for the last word, in a folder with some files."""
         (self.folder / "my trees").mkdir(exist_ok=True)
         (self.folder / "completion").write_text(self.script("bash"))
         return self.run_shell(

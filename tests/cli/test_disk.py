@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a power cut leaves: content comes to the disk before its name, names before a journal tells
-of them."""
+"""What a power cut leaves: content reaches the disk before its name, and names before the journal's
+line about them."""
 
 import os
 import pathlib
@@ -27,8 +27,8 @@ class Disk(ForestTest):
         return [call for call in calls if call[1].startswith(str(self.out))]
 
     def assert_lasts(self, calls, least_lines=0):
-        """Plays the calls on a disk that keeps only what it was told to."""
-        content, names = set(), set()  # files and folders that are not on it
+        """Replays the calls on a disk that keeps only what was synced."""
+        content, names = set(), set()  # files and folders that are not on the disk
         renamed, lines = 0, 0
         for call, file, name in calls:
             if call == "write":

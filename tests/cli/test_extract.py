@@ -43,7 +43,7 @@ class Extract(CommandTest):
         self.assertGreater(stages, seconds["total"] * 0.8)
 
     def test_summary(self):
-        joined = (*DRAFT, "--radius-max", "12")  # of fewer than 50 pieces, which would be said
+        joined = (*DRAFT, "--radius-max", "12")  # fewer than 50 pieces, so no warning about them
         result = self.succeed("extract", self.tree, "-o", self.shape, *joined)
         leaves, *rest = result.stderr.splitlines()
         self.assertEqual(leaves, "leaves: leaf (name, shape)")
@@ -136,7 +136,7 @@ class Extract(CommandTest):
         self.assertNotEqual(glb.vertices(snapped), glb.vertices(loose))
 
     def test_far_from_the_origin_is_the_same_shape(self):
-        shift = 10000.0  # a whole number of voxels: the same samples
+        shift = 10000.0  # a whole number of voxels, so the samples are the same
         flags = ("--voxel-size", "0.125", "--points", "vertices")
         positions, triangles = glb.cards()
         near, _, near_report = self.extract(self.tree, *flags)
@@ -147,7 +147,7 @@ class Extract(CommandTest):
         ):
             far, _, far_report = self.extract(self.input("far.glb", data), *flags)
             near_metrics, far_metrics = dict(near_report["metrics"]), far_report["metrics"]
-            # A dilation is counted on a lattice of its own, which the shift does not meet.
+            # A dilation is counted on its own lattice, whose voxels do not divide the shift.
             self.assertAlmostEqual(
                 near_metrics.pop("dilation"), far_metrics.pop("dilation"), delta=0.005
             )

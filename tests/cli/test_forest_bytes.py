@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The same scene and options give the same bytes, whoever computes which tile when."""
+"""The same scene and options give the same bytes, whichever process computes a tile and when."""
 
 import json
 import os
@@ -54,7 +54,7 @@ class SameBytes(ForestTest):
     @unittest.skipUnless(MPIRUN, "leafhull is built without MPI")
     def test_statistics_of_the_scene_over_ranks(self):
         scene = self.scatter(60)
-        # Crowns so dense that T is none of the densities that many leaves have.
+        # The crowns are so dense that T is not a density that many leaves share.
         flags = (*COARSE, "--tile", "32", "--levels", "2", "--control-scope", "scene",
                  "--radius-max", "15", "--coverage", "0.7")  # fmt: skip
         self.forest(scene, "alone", *flags)
@@ -119,9 +119,9 @@ class Parts(ForestTest):
     def test_a_part_is_done_once(self):
         flags = (*COARSE, "--tile", "32")
         first = self.part(1, "parts", *flags)
-        self.assertNotIn("from before", first.stderr)
-        self.assertIn("from before", self.part(1, "parts", *flags).stderr)
-        # What a part has left is no unfinished forest that a part may not join.
+        self.assertNotIn("from an earlier run", first.stderr)
+        self.assertIn("from an earlier run", self.part(1, "parts", *flags).stderr)
+        # Another part may join a folder that holds one part's tiles.
         self.part(2, "parts", *flags)
         self.forest(self.scene, "parts", *flags, "--resume")
         self.forest(self.scene, "whole", *flags)

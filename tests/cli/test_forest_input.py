@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Scenes that are odd, wrong, or too large."""
+"""Scenes that are unusual, wrong or too large."""
 
 import json
 import math
@@ -133,7 +133,7 @@ class OddScenes(ForestTest):
             self.assertEqual(json.loads(report.read_text())["scene"]["trees"], 1)
             self.forest(alone, "alone", "--restart", *COARSE, "--merge", merge)
             found, expected = files_in(self.out / "odd"), files_in(self.out / "alone")
-            for files in (found, expected):  # it has the scene's models
+            for files in (found, expected):  # the manifest names the scene's models
                 del files["manifest.json"]
             self.assertEqual(found, expected)
         rows = ["ash.glb,9,0,0,0", "oak.glb,0,0,9,nan"]
@@ -143,7 +143,7 @@ class OddScenes(ForestTest):
         self.assertIn("of all 2", result.stderr)
 
     def test_trees_a_thousand_kilometres_apart(self):
-        far = 27000 * 128 * 0.3  # whole tiles, so that each has the same surface
+        far = 27000 * 128 * 0.3  # whole tiles, so each tree has the same surface
         scene = self.stand("ash.glb,0,0,0", f"ash.glb,{far},0,0", f"ash.glb,0,0,{-far}")
         begin = time.monotonic()
         self.welded(scene, "--levels", "2", "--style", "paper-thin", "--threshold", "0.3")
@@ -161,7 +161,7 @@ class OddScenes(ForestTest):
                 self.assertLess(max(abs(p - q) for p, q in zip(a, b)), 0.3 / 1000)
 
     def test_a_thousand_kilometres_away_is_as_here(self):
-        """The voxel is a power of two, so that the lattice is the same."""
+        """The voxel size is a power of two, so the lattice is the same."""
         meshes = []
         for x in (8, 8 + 2**20):
             scene = self.stand(f"oak.glb,{x},8,8")
@@ -179,7 +179,7 @@ class OddScenes(ForestTest):
             one = self.welded(self.stand("oak.glb,5,5,5"), *flags)
             two = self.welded(self.stand("oak.glb,5,5,5", "oak.glb,5,5,5"), *flags)
             three = self.welded(self.stand(*["oak.glb,5,5,5"] * 3), *flags)
-            if scope == "model":  # their densities add: the same T is met farther out
+            if scope == "model":  # the densities add up, so N reaches T farther out
                 halved = self.welded(
                     self.stand("oak.glb,5,5,5"), *flags[:-1], "0.25"
                 )
@@ -188,7 +188,7 @@ class OddScenes(ForestTest):
             self.assertNotEqual(unordered(one), unordered(two))
 
     def test_a_tile_with_nothing_in_it(self):
-        # Two trees at opposite corners of a tile, another between them in the box of a third.
+        # Some tiles meet the box of a tree but not its surface.
         scene = self.stand("ash.glb,0,0,0", "ash.glb,40,0,40")
         report = self.folder / "report.json"
         flags = (*COARSE, "--tile", "32", "--report", report)
@@ -203,7 +203,7 @@ class OddScenes(ForestTest):
         )
 
     def gltf_scene(self, nodes, *, instancing=None, name="scene.glb"):
-        """The ash as a mesh that `nodes` place; `instancing` are translations."""
+        """The ash as a mesh that `nodes` place; `instancing` holds translations."""
 
         def change(document):
             document["nodes"] = [{"mesh": 0, **node} for node in nodes]
@@ -243,7 +243,7 @@ class OddScenes(ForestTest):
             self.forest(scene, "apart", "--restart", "--merge", "none", *COARSE)
             document, binary = glb.unpack((self.out / "apart" / "forest.glb").read_bytes())
             for named in (*document["nodes"], *document["meshes"]):
-                named.pop("name")  # a mesh's, or a file's
+                named.pop("name")  # the name of a mesh or of a file
             apart.append((document, binary))
         self.assertEqual(apart[0], apart[1])
         self.assertEqual(apart[0], apart[2])
@@ -257,7 +257,7 @@ class OddScenes(ForestTest):
             return self.welded(scene, "--voxel-size", "0.05", "--style", "paper-thin", "--threshold", "0.3")
 
         plain = canopy((1, 0, 0), (0, 1, 0), (0, 0, 1))
-        # The lattice is not mirrored with the tree, so that its vertices are others.
+        # The lattice is not mirrored with the tree, so the vertices differ.
         mirrored = canopy((-1, 0, 0), (0, 1, 0), (0, 0, 1))
         turned = [(12 - high, 12 - low) for low, high in self.bounds(plain)[:1]]
         self.assert_near(turned + self.bounds(plain)[1:], self.bounds(mirrored), 0.1)
@@ -285,7 +285,7 @@ class OddScenes(ForestTest):
 
     def assert_outward(self, surface):
         self.assertGreater(self.volume(surface), 0)
-        along = every = 0  # of areas
+        along = every = 0  # areas: of triangles whose normals point outward, and of all
         for numbers in surface.triangles:
             a, b, c = (surface.vertices[i][:3] for i in numbers)
             u, v = ([q - p for p, q in zip(a, end)] for end in (b, c))

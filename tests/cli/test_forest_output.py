@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What leafhull forest writes: instances, levels, the report; and how much memory it takes."""
+"""The output of leafhull forest (instances, levels, the report) and its use of memory."""
 
 import csv
 import json
@@ -16,7 +16,7 @@ from forests import COARSE, ForestTest, read_glb
 
 class Instances(ForestTest):
     def instances(self, folder):
-        """Of each mesh by name: translation, rotation, scale of its instances."""
+        """The translations, rotations and scales of each mesh's instances, by the mesh's name."""
         document, binary = glb.unpack((folder / "forest.glb").read_bytes())
 
         def elements(index, size):
@@ -130,7 +130,7 @@ class Instances(ForestTest):
                                  *COARSE)  # fmt: skip
         self.assertEqual(again.returncode, 2)
         result = self.forest(scene, "apart", "--merge", "none", *COARSE, "--resume")
-        self.assertIn("nothing was to do", result.stderr)
+        self.assertIn("nothing was left to do", result.stderr)
         self.forest(scene, "apart", "--merge", "none", *COARSE, "--restart")
         self.assertEqual((self.out / "apart" / "forest.glb").read_bytes(), before)
 
@@ -253,7 +253,7 @@ class Reports(ForestTest):
 
 class Memory(ForestTest):
     def test_it_stays_below_what_it_may_have(self):
-        """Leaves enough that all trees at once would not fit."""
+        """There are so many leaves that all trees together would not fit."""
         self.input("oak.glb", glb.tree(*glb.cards(15000, 2.5, half=0.05)))
         rows = [f"oak.glb,{5 * x},0,{5 * z}" for x in range(6) for z in range(6)]
         scene = self.stand(*rows)

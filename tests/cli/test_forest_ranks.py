@@ -16,17 +16,17 @@ MPIRUN = os.environ["MPIRUN"]
 MANY_TILES = ("--voxel-size", "0.04", "--tile", "32")
 LOST = re.compile(
     r"leafhull: rank (\d) \(\S+, process (\d+)\) died; still to do: (\d+) of (\d+) tiles; "
-    r"the same command with --resume goes on"
+    r"the same command with --resume continues"
 )
 OTHER_HOST = pathlib.Path(__file__).parents[1] / "ranks" / "other_host.sh"
 STOPPED = re.compile(
-    r"leafhull: stopped; still to do: \d+ of \d+ tiles; the same command with --resume goes on"
+    r"leafhull: stopped; still to do: \d+ of \d+ tiles; the same command with --resume continues"
 )
 
 
 FAILED = re.compile(
     r"leafhull: error: rank 1: cannot write .*\. (\d+) of (\d+) tiles are still to do; "
-    r"the same command with --resume goes on\."
+    r"the same command with --resume continues\."
 )
 
 
@@ -36,7 +36,7 @@ def listen_to_interrupts():
 
 
 def ranks_of(mpirun):
-    """The process of each rank."""
+    """The process id of each rank."""
     found = {}
     for folder in pathlib.Path("/proc").iterdir():
         try:
@@ -51,7 +51,7 @@ def ranks_of(mpirun):
 
 
 def processes_with(variable, word):
-    """Those of any parent with this variable in their environment and this word in their command."""
+    """The processes that have this variable in their environment and this word in their command."""
     found = []
     for folder in pathlib.Path("/proc").iterdir():
         try:
@@ -154,8 +154,8 @@ class ForestRanks(CommandTest):
         code, text = self.end(process)
         self.assertNotEqual(code, 0)
         (line,) = our_lines(text)
-        self.assertIn("perhaps by a rank of another host; ", line)
-        self.assertRegex(line.replace(", perhaps by a rank of another host", ""), STOPPED)
+        self.assertIn("perhaps by a rank on another host; ", line)
+        self.assertRegex(line.replace(", perhaps by a rank on another host", ""), STOPPED)
 
     def test_an_error_says_how_much_is_still_to_do(self):
         process = self.start_tiles(2)
@@ -169,7 +169,7 @@ class ForestRanks(CommandTest):
         self.assertTrue(0 <= self.tiles_done(self.out / "stand") - counted <= 2, line)
 
     def start_tiles(self, ranks, **options):
-        """Ranks that have begun with tiles."""
+        """Starts ranks and waits until they compute tiles."""
         process = self.start(ranks, self.out / "stand", *MANY_TILES, **options)
         while self.tiles_done(self.out / "stand") < 8 and process.poll() is None:
             time.sleep(0.01)
@@ -212,4 +212,4 @@ class ForestRanks(CommandTest):
         result = subprocess.run(command, capture_output=True, text=True, timeout=100)
         self.assertEqual(result.returncode, 2, result.stderr)
         self.assertEqual(len(our_lines(result.stderr)), 1, result.stderr)
-        self.assertIn("other words", our_lines(result.stderr)[0])
+        self.assertIn("another command", our_lines(result.stderr)[0])

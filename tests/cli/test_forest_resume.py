@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Nothing is lost: a forest that was cut off goes on, and ends with the same bytes."""
+"""A forest that was cut off loses nothing: it continues and ends with the same bytes."""
 
 import json
 import os
@@ -27,7 +27,7 @@ class CutOff(ForestTest):
         self.place = self.out / "cut"
 
     def undisturbed(self):
-        self.forest(self.scene, "cut", *self.flags)  # which may compile kernels
+        self.forest(self.scene, "cut", *self.flags)  # this run may compile kernels
         begin = time.monotonic()
         self.forest(self.scene, "cut", *self.flags, "--restart")
         self.seconds = time.monotonic() - begin
@@ -64,7 +64,7 @@ class CutOff(ForestTest):
         self.assert_same_files(self.place, whole)
 
     def run_with_files_up_to(self, size):
-        """A run whose files can no more grow beyond `size` once it has begun with tiles."""
+        """A run whose files cannot grow beyond `size` once it has begun to write tiles."""
         ignore = lambda: signal.signal(signal.SIGXFSZ, signal.SIG_IGN)  # noqa: E731
         process = self.start(preexec_fn=ignore)
         while process.poll() is None and not list(self.place.glob("work/*/*.glb")):
@@ -75,7 +75,7 @@ class CutOff(ForestTest):
 
     def assert_says_what_is_left(self, result):
         told = re.search(r"\. (\d+) of (\d+) tiles are still to do; the same command with --resume "
-                         r"goes on\.\n\Z", result.stderr)  # fmt: skip
+                         r"continues\.\n\Z", result.stderr)  # fmt: skip
         self.assertIsNotNone(told, result.stderr)
         journals = (self.place / "work").glob("journal-*")
         done = sum(len(journal.read_text().splitlines()) for journal in journals)
@@ -130,7 +130,7 @@ class CutOff(ForestTest):
             time.sleep(seconds)
             process.kill()
             process.communicate(timeout=60)
-            time.sleep(0.5)  # its ranks see that it is gone
+            time.sleep(0.5)  # time for the ranks to see that mpirun is gone
         process = self.start("--resume", before=mpirun(2))
         _, text = process.communicate(timeout=300)
         self.assertEqual(process.returncode, 0, text)
@@ -139,7 +139,7 @@ class CutOff(ForestTest):
 
 class TimeLeft(ForestTest):
     def bar(self, *arguments):
-        """What standard error shows on a terminal, drawing by drawing."""
+        """What a terminal shows of standard error, redraw by redraw."""
         ours, theirs = pty.openpty()
         os.set_blocking(ours, True)
         with open(theirs, "wb") as terminal, open(ours, "rb", buffering=0) as screen:
@@ -151,13 +151,13 @@ class TimeLeft(ForestTest):
             try:
                 while data := screen.read(4096):
                     shown += data
-            except OSError:  # how Linux says that nobody writes any more
+            except OSError:  # Linux reports this way that no writer is left
                 pass
             self.assertEqual(process.wait(timeout=300), 0, shown)
         return shown.decode().split("\r\033[K")
 
     def test_what_was_done_before_tells_no_pace(self):
-        """Nor does the pass before the tiles."""
+        """The pass before the tiles does not count for the pace either."""
         scene = self.scatter(60)
         flags = ("--voxel-size", "0.1", "--tile", "64", "--control-scope", "scene")
         self.forest(scene, "forest", *flags, "--tile-range", "1/2")
@@ -186,7 +186,7 @@ class Folders(ForestTest):
         for word in words:
             self.assertIn(word, result.stderr)
         after = files_in(self.place)
-        for name in after.keys() - before.keys():  # a journal, which may be opened
+        for name in after.keys() - before.keys():  # only an empty journal may appear
             self.assertRegex(name, "^work/journal-")
             self.assertEqual(after.pop(name), b"")
         self.assertEqual(after, before, "nothing is changed")
@@ -219,7 +219,7 @@ class Folders(ForestTest):
         self.refuse(2, ["finished", "--resume", "--restart"], *TILED)
         before = {path: path.stat().st_mtime_ns for path in self.place.rglob("*")}
         result = self.forest(self.scene, "forest", *TILED, "--resume")
-        self.assertRegex(result.stderr, r"\Aleafhull: .*finished: nothing was to do\n\Z")
+        self.assertRegex(result.stderr, r"\Aleafhull: .*finished; nothing was left to do\n\Z")
         self.assertEqual({path: path.stat().st_mtime_ns for path in self.place.rglob("*")}, before)
         self.refuse(2, ["finished, without all.glb"], *TILED, "--resume",
                     "--single", self.place / "all.glb")  # fmt: skip
@@ -310,7 +310,7 @@ class Folders(ForestTest):
         ):
             journal.write_bytes(lines[0] + damaged + b"".join(lines[2:]))
             self.refuse(3, [journal.name, "line 2", "damaged", "--restart"], *TILED, "--resume")
-        # A line that was cut off is as if it had never been begun.
+        # A line that was cut off counts as missing.
         journal.write_bytes(b"".join(lines[:-1]) + lines[-1][:-20])
         self.forest(self.scene, "forest", *TILED, "--resume")
         self.forest(self.scene, "other", *TILED)
@@ -324,7 +324,7 @@ class Folders(ForestTest):
                 tile = max((self.place / "work").rglob(f"*.{ending}"))
                 tile.write_bytes(damage(tile.read_bytes()))
                 result = self.run_command("forest", self.scene, "-o", self.place, *TILED, "--resume")
-                if result.returncode != 0:  # only its checksum tells
+                if result.returncode != 0:  # only a checksum shows the damage
                     self.assertEqual(result.returncode, 3, result.stderr)
                     self.assertIn("is damaged", result.stderr)
                     self.assertIn("--resume", result.stderr)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The surface is the same however the scene is cut, and has no crack where tiles meet."""
+"""The surface is the same however the scene is cut into tiles, and has no cracks between tiles."""
 
 import collections
 import json
@@ -44,7 +44,7 @@ class Seams(ForestTest):
             self.assertTrue(found[1] == whole[1], "the same triangles")
 
     def test_a_tree_that_has_grown(self):
-        """Its kernels reach as far as it is tall: a tile that forgets some loses surface."""
+        """The kernels reach as far as the tree is tall; a tile that misses some loses surface."""
         scene = self.stand("oak.glb,0,0,0,0,4")
         flags = ("--voxel-size", "0.2", "--radius-max", "16", "--method", "isotropic",
                  "--threshold-percent", "60")  # fmt: skip
@@ -63,7 +63,7 @@ class Seams(ForestTest):
         self.same_for_all_tiles("--style", "paper-thin", "--threshold", "0.5")
 
     def test_kernels_that_reach_far_over_seams(self):
-        """Farther than the bricks around a tile."""
+        """The kernels reach farther than the bricks around a tile."""
         far = ("--voxel-size", "0.2", "--radius-max", "16")
         self.same_for_all_tiles(*far, "--method", "isotropic", "--threshold-percent", "60")
         self.same_for_all_tiles(*far, "--control-scope", "scene", "--threshold", "0.3")
@@ -119,15 +119,15 @@ class Alone(ForestTest):
                     )  # fmt: skip
                     found = json.loads(report.read_text())["levels"][0]["threshold"]
                     if scope == "scene" and "--threshold" not in flags:
-                        # Over the scene a coverage is met to a step of a histogram.
+                        # Over a scene, a coverage is met only to a step of a histogram.
                         self.assertAlmostEqual(found / threshold, 1, delta=1e-4)
                         continue
                     self.assertEqual(found, threshold)
                     self.assert_same_shape(read_glb(single), mesh, voxel)
 
     def assert_same_shape(self, found, expected, voxel):
-        """Vertices set out 2^-14 voxels apart. Nearly all end within a thousandth of a voxel, to which
-        tiles round; where the surface is flat in N, Newton's way from there may end a little aside."""
+        """Newton's iteration starts from vertices that are at most 2^-14 voxels apart. Nearly all end
+        within a thousandth of a voxel, the rounding of tiles; where N is flat some end farther."""
         self.assertEqual(len(found.vertices), len(expected.vertices))
         self.assertEqual(len(found.triangles), len(expected.triangles))
         cells = {}

@@ -67,8 +67,8 @@ class ForestUsage(CommandTest):
         self.refuse(["--quiet", "--verbose"], "-q", "-v")
 
     def test_options_that_tiles_cannot_have(self):
-        self.refuse(["--mesher", "not for forests", "cracks"], "--mesher", "vdb")
-        self.refuse(["--adaptivity", "not for forests", "cracks"], "--adaptivity", "0.5")
+        self.refuse(["--mesher", "does not apply to forests", "cracks"], "--mesher", "vdb")
+        self.refuse(["--adaptivity", "does not apply to forests", "cracks"], "--adaptivity", "0.5")
         self.refuse(["--hollows fill", "--merge none"], "--hollows", "fill")
         page = self.succeed("forest", "--help").stdout
         self.assertNotIn("--mesher", page)

@@ -46,7 +46,7 @@ class Interrupt(CommandTest):
                 time.sleep(delay)
                 self.interrupt(process, number)
 
-    def test_a_signal_that_is_ignored(self):  # as nohup has it
+    def test_a_signal_that_is_ignored(self):  # as under nohup
         process = self.start("--preset", "fine", before=ignore_hangups)
         time.sleep(0.3)
         self.assertIsNone(process.poll(), "ended before it could be told")

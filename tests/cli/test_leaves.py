@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Which triangles of a file are taken as leaves, and what is said of it."""
+"""Which triangles of a file are taken as leaves, and what the command says about it."""
 
 import json
 import pathlib
@@ -10,12 +10,12 @@ from command import ASH, CommandTest
 
 SHARED = pathlib.Path(__file__).parents[3] / "shared"
 
-# Of the shared files: the materials that are leaves, or the colours of the parts that are.
+# For each shared file, the materials that are leaves or the colours of the parts that are.
 RIGHT = json.loads(pathlib.Path(__file__).parents[1].joinpath("leaves.json").read_text())["files"]
 
 
 def chain(nodes):
-    """One card under each of many nodes, no two of one name."""
+    """One card under each of many nodes, which all have different names."""
 
     def change(document):
         document["nodes"] = [
@@ -29,7 +29,7 @@ def chain(nodes):
 
 
 def scene():
-    """Two trees of cards, a meadow of cards and a plane, by names of nodes and materials."""
+    """Two trees of cards, a meadow of cards and a plane, told apart by names."""
 
     def change(document):
         document["materials"] = [
@@ -112,14 +112,14 @@ class Leaves(CommandTest):
 
         tree = self.input("guess.glb", glb.tree(*glb.cards(count=2), change=change))
         result = self.succeed("inspect", tree)
-        self.assertRegex(result.stderr, r"warning: what the leaves are is a guess: .*--leaves")
+        self.assertRegex(result.stderr, r"warning: the choice of leaves is a guess: .*--leaves")
 
     def test_twenty_thousand_nodes_are_quick_and_readable(self):
         tree = self.input("many.glb", chain(20_000))
         start = time.monotonic()
         result = self.succeed("inspect", tree)
         seconds = time.monotonic() - start
-        self.assertLess(seconds, 5)  # 0.5 on a machine with nothing else to do
+        self.assertLess(seconds, 5)  # 0.5 on an idle machine
         self.assertLessEqual(len(result.stdout.splitlines()), 30)
         self.assertIn("and 19,999 more", result.stdout)
         self.assertEqual(len(self.inspect(tree)["candidates"]), 20_000)
@@ -131,7 +131,7 @@ class Leaves(CommandTest):
             primitives[:] = [primitives[0] | {"material": i} for i in range(50)]
 
         tree = self.input("many.glb", glb.tree(*glb.cards(count=3), change=change))
-        self.assertIn("and 20 more, all of them with --json", self.succeed("inspect", tree).stdout)
+        self.assertIn("and 20 more; --json lists them all", self.succeed("inspect", tree).stdout)
 
     def test_a_forest_makes_no_tree_of_a_meadow(self):
         path = self.input("scene.glb", scene())
@@ -153,7 +153,7 @@ class Leaves(CommandTest):
             with self.subTest(name):
                 start = time.monotonic()
                 text = self.succeed("inspect", SHARED / name).stdout
-                self.assertLess(time.monotonic() - start, 5)  # 1 with nothing else to do
+                self.assertLess(time.monotonic() - start, 5)  # 1 on an idle machine
                 self.assertLessEqual(len(text.splitlines()), 30)
                 page = self.inspect(SHARED / name)
                 taken, others = set(), set()

@@ -6,14 +6,14 @@ import unittest
 
 from command import ASH, CommandTest
 
-# Beyond what the OpenCL compiler writes, below every shape of the ash.
+# More bytes than the OpenCL compiler writes, and fewer than any shape of the ash has.
 FULL = 5 << 18
-# Room for the ash as .vdb, not as .obj.
+# Enough bytes for the ash as .vdb but not as .obj.
 NEARLY_FULL = 3 << 20
 
 
 def disk(limit):
-    """A disk that takes no file larger than `limit` bytes."""
+    """Options for a process that cannot write files larger than `limit` bytes."""
     return {"preexec_fn": lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit))}
 
 

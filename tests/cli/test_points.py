@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""--points, --point-spacing and the styles that set them."""
+"""Tests --points, --point-spacing and the styles that set them."""
 
 import json
 

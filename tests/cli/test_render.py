@@ -177,7 +177,7 @@ class Subjects(Render):
             self.assertTrue(any(is_green(pixel) for row in rows for pixel in row))
             if shape == self.glb:
                 self.assertEqual(rows, first[2])
-            # An OBJ does not tell the leaves' colour.
+            # An OBJ file does not hold the leaves' colour.
             for row, first_row in zip(rows, first[2], strict=True):
                 self.assertEqual([p == paper for p in row], [p == paper for p in first_row])
         self.assertNotIn("abstract shape", self.render("--as", "shape", subject=self.glb).stderr)
@@ -187,7 +187,7 @@ class Subjects(Render):
 
     def test_a_shape_taken_for_a_tree_is_a_guess(self):
         result = self.render("--as", "tree", subject=self.obj)
-        self.assertIn("what the leaves are is a guess", result.stderr)
+        self.assertIn("the choice of leaves is a guess", result.stderr)
 
     def test_leaf_colour(self):
         def shares(*flags):
@@ -218,7 +218,7 @@ class Subjects(Render):
         self.assertIn("warning: --as has no effect", result.stderr)
 
     def test_a_density_that_cannot_be_drawn(self):
-        self.refuse(["was sampled for T"], "--threshold", "50", subject=self.field)
+        self.refuse(["was sampled only for T"], "--threshold", "50", subject=self.field)
         self.refuse(["no.vdb"], subject="no.vdb", code=3)
         broken = self.input("broken.vdb", self.field.read_bytes()[:5000])
         self.refuse(["broken.vdb"], subject=broken, code=3)

@@ -9,7 +9,7 @@ from command import CommandTest
 
 
 def grey16(rows):
-    """A grey PNG of 16 bits."""
+    """A 16-bit grey PNG."""
 
     def chunk(kind, data):
         check = zlib.crc32(kind + data)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""--erosion and --dilation, the band by shares, and styles that differ."""
+"""Tests --erosion and --dilation, the band by shares, and that styles differ."""
 
 import json
 import os

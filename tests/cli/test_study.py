@@ -24,7 +24,7 @@ class Study(CommandTest):
         return json.loads((self.report / "study.json").read_text())
 
     def bare(self):
-        """A tree whose leaves are too few for any surface."""
+        """A tree with too few leaves for a surface."""
         return self.input("bare.glb", glb.tree(*glb.cards(count=3)))
 
     def test_report_of_two_trees_of_one_name(self):
@@ -112,7 +112,7 @@ class Study(CommandTest):
 
     def test_full_disk_leaves_nothing(self):
         bare = self.bare().read_bytes()
-        trees = [self.input(f"bare{i}.glb", bare) for i in range(12)]  # for a report beyond FULL
+        trees = [self.input(f"bare{i}.glb", bare) for i in range(12)]  # the report grows beyond FULL
         self.succeed("study", *trees, "-o", self.folder)
         self.assertGreater((self.folder / "report.html").stat().st_size, FULL)
         for folder in (self.report, self.out):

@@ -10,7 +10,7 @@ COARSE = ("--preset", "paper-32")
 
 
 def report_of(command):
-    """The words of a suggested command, a report in place of its shape."""
+    """The words of a suggested command, with a report in place of its shape."""
     words = shlex.split(command)
     return [*words[1 : words.index("-o")], "--report", "-"]
 

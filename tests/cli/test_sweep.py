@@ -161,7 +161,7 @@ class Resuming(SweepTest):
         return max(0, journal.read_bytes().count(b"\n") - 1) if journal.exists() else 0
 
     def cut_off(self, number):
-        """A sweep that got the signal after two rows or more, and what it said."""
+        """A sweep that got the signal after at least two rows, and what it printed."""
         for attempt in range(10):
             folder = self.out / f"cut-{number}-{attempt}"
             process = self.start(folder)
@@ -182,7 +182,7 @@ class Resuming(SweepTest):
                 self.assertGreaterEqual(done, 2)
                 self.assertFalse((folder / "sweep.csv").exists())
                 if number != signal.SIGKILL:
-                    self.assertIn("the same command goes on", words)
+                    self.assertIn("the same command continues", words)
                 again = self.succeed("sweep", ASH, *NINE, "-o", folder)
                 self.assertIn(f"resuming: {done} of 9 done", again.stderr)
                 self.assertEqual(timeless(self.table(folder)), timeless(self.table()))
@@ -200,7 +200,7 @@ class Resuming(SweepTest):
         (self.sweep / "sweep.csv").unlink()
         again = self.run_sweep(*flags)
         self.assertIn("resuming: 2 of 2 done", again.stderr)
-        self.assertEqual((self.sweep / "sweep.csv").read_bytes(), table)  # the seconds, too
+        self.assertEqual((self.sweep / "sweep.csv").read_bytes(), table)  # even the seconds
 
     def test_a_lost_picture_is_drawn_again(self):
         flags = ("--threshold", "1,2", *COARSE)
@@ -297,7 +297,7 @@ class Resuming(SweepTest):
     def test_a_table_from_elsewhere_is_not_overwritten(self):
         self.sweep.mkdir()
         (self.sweep / "sweep.csv").write_text("mine")
-        self.refuse(["sweep.csv", "there already"], "--threshold", "1,2", *COARSE)
+        self.refuse(["sweep.csv", "already exists"], "--threshold", "1,2", *COARSE)
         self.run_sweep("--threshold", "1,2", "--restart", *COARSE)
         self.assertEqual(len(self.table()), 2)
 

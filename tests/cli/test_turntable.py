@@ -20,7 +20,7 @@ class Turntables(Render):
         return [f"picture-{i:04}.png" for i in range(1, count + 1)]
 
     def instead_of_ffmpeg(self, script):
-        """The environment in which a shell script stands for it."""
+        """An environment whose ffmpeg is a shell script."""
         programs = self.folder / "bin"
         programs.mkdir()
         program = programs / "ffmpeg"

@@ -112,9 +112,9 @@ class Usage(CommandTest):
         self.refuse(["--threshold needs a value"], "--threshold")
 
     def test_a_line_is_written_at_once(self):
-        """Written in parts it is torn where ranks share a terminal."""
+        """If it were written in parts, ranks that share a terminal would mix their lines."""
         for arguments in (("--verbose",), ("--band-low", "0.5", "--band-high", "0.25")):
-            # Each write to such a socket is a message of its own.
+            # Each write to such a socket is a separate message.
             ours, its = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
             command = [os.environ["LEAFHULL"], "extract", self.tree, "-o", self.shape, *arguments]
             with ours:

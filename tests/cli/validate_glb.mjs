@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// node validate_glb.mjs FOLDER FILE...   checks every FILE with the gltf-validator installed in FOLDER.
-// Exits with 0 where none has an error or a warning, 1 where one has, 77 where there is no validator.
+// node validate_glb.mjs FOLDER FILE... checks every FILE with the gltf-validator installed in FOLDER.
+// Exits with 0 if no file has an error or a warning, 1 if one has, and 77 if there is no validator.
 import { readFile } from "node:fs/promises";
 import { createRequire } from "node:module";
 import { resolve } from "node:path";

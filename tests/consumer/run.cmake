@@ -1,5 +1,5 @@
-# Installs BUILD_DIR into WORK_DIR, builds examples/extract against it and runs it on TREE;
-# then the installed command, which must find its library by itself.
+# Installs BUILD_DIR into WORK_DIR, builds examples/extract against it and runs it on TREE, then runs
+# the installed command, which must find its library by itself.
 cmake_minimum_required(VERSION 3.24)
 
 function(run)

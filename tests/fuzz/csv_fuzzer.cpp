@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Any bytes are either a scatter file whose trees can stand, or an Error input. Of the disk the
-// reader asks only whether a tree file is there: the seeds name /dev/null.
+// Any bytes give either a scatter file whose trees can be placed, or an Error input. The reader
+// only checks that a tree file exists, so the seeds name /dev/null.
 #include <cmath>
 #include <cstddef>
 #include <cstdint>

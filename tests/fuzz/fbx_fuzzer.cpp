@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// As gltf_fuzzer.cpp, of FBX. Images in it are read, those beside it are not.
+// As gltf_fuzzer.cpp, for FBX. Images inside the file are read, others are not.
 #include <cstddef>
 #include <cstdint>
 

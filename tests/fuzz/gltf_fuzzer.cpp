@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Any bytes are either a tree that keeps what tree.h promises, or an Error input.
+// Any bytes give either a tree that keeps the promises of tree.h, or an Error input.
 #include <cstddef>
 #include <cstdint>
 

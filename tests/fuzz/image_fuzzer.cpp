@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Any bytes are an image, or there is a reason of one line why not.
+// Any bytes give either an image or a reason of one line.
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -9,7 +9,7 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace leafhull::fuzz;
-  for (const char* name : {"x.tga", "x.png"}) {  // TGA is told by its name alone
+  for (const char* name : {"x.tga", "x.png"}) {  // only the name marks a TGA
     std::string reason;
     const leafhull::Image image = leafhull::decode_image({data, size}, name, reason);
     check(image);

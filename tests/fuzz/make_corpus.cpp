@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes the seeds that are built, of glTF and FBX: make_corpus tests/fuzz/corpus. compressed.fbx
-// is skinned_binary.fbx with its arrays deflated.
+// make_corpus tests/fuzz/corpus writes the glTF and FBX seeds that code builds. compressed.fbx is
+// skinned_binary.fbx with its arrays deflated.
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -100,7 +100,7 @@ FbxBuilder fbx_square() {
   return file;
 }
 
-/// With a PNG in the file.
+/// The quad with an embedded PNG.
 FbxBuilder fbx_textured() {
   FbxBuilder file = fbx_square();
   const Bytes pixels = png(2, 1, Bytes{0, 255, 0, 255, 0, 255, 0, 0});
@@ -118,7 +118,7 @@ FbxBuilder fbx_textured() {
   return file;
 }
 
-/// With colours, posed by a joint, beside a group of levels.
+/// The quad with colours, posed by a joint, beside a group of levels.
 FbxBuilder fbx_skinned() {
   FbxBuilder file = fbx_square();
   file.objects[0].children.push_back(

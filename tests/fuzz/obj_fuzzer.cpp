@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// As gltf_fuzzer.cpp, of OBJ; what follows a line "---MTL---" is its material library.
+// As gltf_fuzzer.cpp, for OBJ. The material library follows a line "---MTL---".
 #include <cstddef>
 #include <cstdint>
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What readers promise of any bytes, for the fuzzers.
+// Checks for the fuzzers: what readers promise for any bytes.
 #pragma once
 
 #include <cmath>
@@ -41,7 +41,7 @@ inline void check(const Primitive& primitive) {
   }
 }
 
-/// What tree.h says.
+/// Checks what tree.h promises.
 inline void check(const TreeModel& tree) {
   const auto is_index = [](int index, std::size_t count) {
     return index >= -1 && index < static_cast<std::int64_t>(count);

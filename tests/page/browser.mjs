@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A browser for the tests of a report, and what they ask of a page.
+// A browser for the tests of a report, and what they measure of a page.
 import { createRequire } from 'node:module';
 import { pathToFileURL } from 'node:url';
 
@@ -14,7 +14,7 @@ const FLAGS = [
 
 export const launch = () => chromium.launch({ executablePath: CHROMIUM, args: FLAGS });
 
-/** Opens the report in a context of its own; `page.faults` gathers what a page must not do. */
+/** Opens the report in its own context; `page.faults` collects what a page must not do. */
 export async function open(browser, { before, ...options } = {}) {
   const context = await browser.newContext({ viewport: { width: 1280, height: 900 }, ...options });
   const page = await context.newPage();
@@ -31,7 +31,7 @@ export async function open(browser, { before, ...options } = {}) {
   return page;
 }
 
-/** Small copies of a view's canvases, three numbers of colour and one of opacity a pixel. */
+/** Small copies of a view's canvases: three numbers of colour and one of opacity per pixel. */
 const thumbnails = (page, tree = 0) => page.evaluate(async (tree) => {
   const SIZE = 48;
   await new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve)));
@@ -48,14 +48,14 @@ const thumbnails = (page, tree = 0) => page.evaluate(async (tree) => {
 export const covered = (pixels) =>
   pixels.filter((value, i) => i % 4 === 3 && value > 0).length / (pixels.length / 4);
 
-/** How much two thumbnails differ: the mean over the numbers of what either shows. */
+/** How much two thumbnails differ: the mean over the numbers that are positive in either. */
 export function difference(a, b) {
   const changes = a.map((value, i) => Math.abs(value - b[i]));
   const shown = a.filter((value, i) => value > 0 || b[i] > 0).length;
   return changes.reduce((sum, change) => sum + change, 0) / Math.max(1, shown);
 }
 
-/** Scrolls to the view of a tree; thumbnails of its canvases once each shows something. */
+/** Scrolls to the view of a tree and returns thumbnails once each canvas shows something. */
 export async function openView(page, tree = 0) {
   await page.locator('.view').nth(tree).scrollIntoViewIfNeeded();
   for (let wait = 0; wait < 600; ++wait) {
@@ -68,7 +68,7 @@ export async function openView(page, tree = 0) {
 
 export { thumbnails as pictures };
 
-/** What sticks out of the window, but for what is hidden and what `scrolls` by itself. */
+/** What sticks out of the window, except for hidden elements and those that `scrolls` matches. */
 export const overflow = (page, scrolls = '.scroll, .chart') => page.evaluate((scrolls) => {
   const width = document.documentElement.clientWidth;
   const may = (element) => element.closest('.skip, .symbols, caption') || element.closest(scrolls);
@@ -78,7 +78,7 @@ export const overflow = (page, scrolls = '.scroll, .chart') => page.evaluate((sc
       `${element.getBoundingClientRect().right} of ${width}`);
 }, scrolls);
 
-/** Texts whose contrast to the page is below 4.5 to 1. */
+/** Texts whose contrast with the page is below 4.5 to 1. */
 export const faint = (page) => page.evaluate(() => {
   const luminance = (color) => {
     const [r, g, b] = color.match(/[\d.]+/g).map((part) => {

@@ -34,7 +34,7 @@ Unpacked unpack(const PackedMesh& mesh) {
   return unpacked;
 }
 
-/// Six times the volume inside, positive where faces look outward.
+/// Six times the enclosed volume; positive if the faces look outward.
 double volume6(const std::vector<Vec3d>& positions, const std::vector<std::uint32_t>& indices) {
   double sum = 0;
   for (std::size_t i = 0; i < indices.size(); i += 3) {
@@ -44,7 +44,7 @@ double volume6(const std::vector<Vec3d>& positions, const std::vector<std::uint3
 }
 
 TEST(PackedMesh, LiesInAFrameOfLongestSideOne) {
-  Mesh mesh = sphere(20);  // of radius 2
+  Mesh mesh = sphere(20);  // the radius is 2
   mesh.origin = {1000, 0, 0};
   Box frame;
   frame.include({996, -1, -1});

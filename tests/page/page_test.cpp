@@ -28,7 +28,7 @@ bool holds(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
-/// Without what stands between `begin` and `end`, wherever that is.
+/// Removes every part of the text from `begin` to `end`.
 std::string without(std::string text, const std::string& begin, const std::string& end) {
   for (std::size_t from = 0; (from = text.find(begin, from)) != std::string::npos;) {
     text.erase(from, text.find(end, from + begin.size()) + end.size() - from);
@@ -36,7 +36,7 @@ std::string without(std::string text, const std::string& begin, const std::strin
   return text;
 }
 
-/// What a reader sees, white space as one space.
+/// The text that a reader sees, with white space as single spaces.
 std::string text_of(std::string page) {
   page = without(std::move(page), "<script", "</script>");
   page = without(std::move(page), "<style", "</style>");
@@ -45,7 +45,7 @@ std::string text_of(std::string page) {
   return std::regex_replace(page, std::regex("\\s+"), " ");
 }
 
-/// Where no program is found.
+/// Hides all programs while it lives.
 class NoPrograms {
  public:
   NoPrograms() { ::setenv("PATH", "/nonexistent", 1); }
@@ -137,7 +137,7 @@ TEST(Page, HoldsAMeshForEverySurface) {
   for (std::sregex_iterator i(page.begin(), page.end(), mesh), end; i != end; ++i) {
     meshes.push_back(json::parse((*i)[1].str()));
   }
-  ASSERT_EQ(meshes.size(), 4u);  // of two trees, UNCTRLED is empty
+  ASSERT_EQ(meshes.size(), 4u);  // two for each of two trees; UNCTRLED is empty
   EXPECT_EQ(meshes[0]["triangles"], sphere(12).triangles.size());
   EXPECT_EQ(meshes[1]["vertices"], sphere(8).positions.size());
 }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// A real report in a real browser: node report.mjs, with in the environment
+// Tests a real report in a real browser: node report.mjs, with these variables in the environment:
 //   REPORT
 //   CHROMIUM
 //   PACKAGES  the folder whose node_modules hold playwright-core
 //   WEB       the folder whose node_modules went into the report
-// Exits with 77 where Chromium or packages are missing.
+// Exits with 77 if Chromium or packages are missing.
 import assert from 'node:assert/strict';
 import test, { after, before } from 'node:test';
 
@@ -20,7 +20,7 @@ const TREES = ['ash', 'hornbeam_behind_the_garden_wall'];
 const CLAIMS = 11;
 const PHONE = { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true };
 
-const PAPER = { width: 672, height: 986 };  // A4 without the margins, at 96 pixels an inch
+const PAPER = { width: 672, height: 986 };  // A4 without the margins, at 96 pixels per inch
 
 let browser;
 before(async () => {

@@ -5,8 +5,8 @@
 
 namespace leafhull::test {
 
-/// Two trees under two readings, hand-made: a claim of every outcome, a method without a surface,
-/// and a second tree whose name is markup.
+/// A hand-made study of two trees under two readings, with a claim of every outcome, a method
+/// without a surface and a second tree whose name is markup.
 Study sample_study();
 
 inline constexpr const char* kMarkup = "<script>alert(\"1\")</script> & 'ash'";

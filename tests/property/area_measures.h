@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What tests measure of kernels and meshes by means of their own, in doubles.
+// Measures of kernels and meshes in doubles, computed without leafhull's code.
 #pragma once
 
 #include <algorithm>
@@ -32,7 +32,7 @@ inline double volume(std::span<const Corners> triangles) {
 }
 inline double volume(const Mesh& mesh) { return volume(corners_of(mesh)); }
 
-/// Things by the cells of a lattice that their boxes meet.
+/// Finds things by the lattice cells that their boxes meet.
 class Cells {
  public:
   explicit Cells(double edge) : edge_(edge) {}
@@ -40,7 +40,7 @@ class Cells {
   void add(const Box& box, std::uint32_t thing) {
     visit(box, [&](std::uint64_t key) { cells_[key].push_back(thing); });
   }
-  /// Calls see(thing) for all that may meet a box, one more than once.
+  /// Calls see(thing) for everything that may meet a box, for some things more than once.
   template <class See>
   void near(const Box& box, See&& see) const {
     visit(box, [&](std::uint64_t key) {
@@ -73,7 +73,7 @@ inline Box around(Vec3d p, double reach) {
   return {p - r, p + r};
 }
 
-/// N of a shape's kernels. SPEC: 2.
+/// Evaluates N from a shape's kernels. SPEC: 2.
 class Layers {
  public:
   Layers(std::vector<Kernel> kernels, double radius_max, int falloff)
@@ -108,10 +108,10 @@ class Layers {
   Cells cells_;
 };
 
-/// Whether a place lies within closed triangles, by the parity of what a ray along x meets.
+/// Tells whether a point lies within closed triangles, by how many a ray along x crosses.
 class Solid {
  public:
-  /// `edge`: about as long as a triangle.
+  /// @param edge about the length of a triangle
   Solid(std::vector<Corners> triangles, double edge)
       : triangles_(std::move(triangles)), cells_(edge) {
     for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
@@ -122,7 +122,7 @@ class Solid {
   }
 
   bool holds(Vec3d p) const {
-    // Off the planes of the lattice, where vertices may lie.
+    // Moves the ray off the planes of the lattice, where vertices may lie.
     p = p + Vec3d(0, 3.1e-7, 2.7e-7);
     bool inside = false;
     cells_.near(around({0, p.y, p.z}, 0), [&](std::uint32_t t) {
@@ -142,7 +142,7 @@ class Solid {
   Cells cells_;
 };
 
-/// From a place to the nearest of a triangle.
+/// The distance from a point to a triangle.
 inline double distance(Vec3d p, const Corners& t) {
   const Vec3d n = normalized(cross(t[1] - t[0], t[2] - t[0]));
   bool above = true;
@@ -178,15 +178,15 @@ inline double distance_between(const Mesh& a, const Mesh& b, double most) {
   return *at;
 }
 
-/// The texels of a mask that are visible.
+/// The share of a mask's texels that are visible.
 inline double visible_share(const Image& mask) {
   std::size_t kept = 0;
   for (std::size_t i = 3; i < mask.rgba.size(); i += 4) kept += mask.rgba[i] >= 128;
   return static_cast<double>(kept) / (static_cast<double>(mask.rgba.size()) / 4);
 }
 
-/// The visible area of a tree, texel by texel or, without a mask, triangle by triangle. Of masked
-/// trees: each quad shows the whole picture.
+/// The visible area of a tree, texel by texel or, without a mask, triangle by triangle. In masked
+/// trees each quad must show the whole picture.
 inline double visible_area(const TreeModel& tree) {
   double area = 0;
   for (const Primitive& p : tree.primitives) {
@@ -198,7 +198,7 @@ inline double visible_area(const TreeModel& tree) {
   return tree.images.empty() ? area : area * visible_share(tree.images[0]);
 }
 
-/// Even places on the visible area: by chance on every triangle in proportion to its area.
+/// Random points on the visible area, in proportion to each triangle's area.
 inline std::vector<Vec3d> places_on(const TreeModel& tree, std::size_t count) {
   Random random(17);
   const Primitive& p = tree.primitives[0];

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What must hold of whole shapes made of leaf area: the same however leaves are tessellated, masses
-// and not crumbs, and the same bytes however they are computed.
+// Whole shapes made from leaf area: they do not depend on how leaves are tessellated, are masses
+// and not crumbs, and have the same bytes however they are computed.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -68,8 +68,8 @@ TEST_P(Tessellation, OfLeavesDoesNotShow) {
       {"in four, split", test::with_primitives(tree, fine_split)},
       {"other diagonals", test::with_primitives(tree, test::along_the_other_diagonal)},
   };
-  // Of a sheet that lies alone T is N at its rim, which a point more or less moves: measured are
-  // 1.5%, and 0.06 voxels.
+  // T of a single sheet is N at its rim, which one point more or less changes: by 1.5% and 0.06
+  // voxels, as measured.
   const double volumes = GetParam().tree == test::curved_sheet ? 0.02 : 0.01;
   for (const auto& [how, other] : others) {
     SCOPED_TRACE(how);
@@ -110,7 +110,7 @@ TEST(Mass, OfACrossedBillboardIsItsVisiblePart) {
   EXPECT_EQ(shape.report.counts.components, 1u);
   Box box;
   for (const Vec3f p : shape.mesh.positions) box.include(Vec3d(p));
-  // Visible: the mask's ellipse.
+  // Only the mask's ellipse is visible.
   const double r = shape.report.radius_max_model;
   for (const auto& [side, visible] : {std::pair{-box.low.x, 0.8},
                                       {box.high.x, 0.6},
@@ -136,7 +136,7 @@ TEST(Mass, OfAClosedCrownIsSolid) {
     const Shape shape = shape_of(tree, {});
     EXPECT_EQ(shape.report.counts.components, 1u);
     EXPECT_EQ(euler_characteristic(shape.mesh), 2);
-    // The solid, and a wall outside of it that is thinner than R_max.
+    // The shape holds the solid and a wall outside it that is thinner than R_max.
     double area = 0;
     for (const auto& [a, b, c] : walls) area += length(cross(b - a, c - a)) / 2;
     EXPECT_GT(volume(shape.mesh), volume(walls));
@@ -166,7 +166,7 @@ TEST(AreaBytes, AreTheSameDenseOnAnyThreadsAndAgain) {
   }
 }
 
-/// Cards within a crown of cards, with room between.
+/// Cards inside a crown of cards, with a gap between.
 TreeModel crown_with_a_hollow() {
   TreeModel tree = test::sphere_of_cards();
   tree.instances.push_back({1, "node"});
@@ -223,14 +223,14 @@ ForestLevel level_of_cards(const Scene& scene, int number, const Options& option
                      : prepare_level(number, scene, models, shapes, voxel_size, &finest, device());
 }
 
-/// The triangles of all tiles, in world coordinates.
+/// The resolved shape options of a canopy.
 Options of_a_canopy() {
   ForestOptions forest;
-  forest.shape.min_component = 0;  // small pieces over seams are known once all tiles are
+  forest.shape.min_component = 0;  // tiles alone do not show how large a piece over seams is
   return resolved_shape(forest);
 }
 
-/// Lattice cells whose corners all lie within the triangles.
+/// The number of lattice cells whose corners all lie within the triangles.
 std::uint64_t cells_inside(const std::vector<Corners>& triangles, double h) {
   const test::Solid solid(triangles, 2 * h);
   Box box;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Kernels that stand for leaf area add up to layers of leaf, and a coverage is a share of the area.
+// Kernels of leaf area add up to the number of leaf layers, and a coverage is a share of the area.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -27,7 +27,7 @@ bool says(const std::vector<std::string>& warnings, std::string_view words) {
   });
 }
 
-/// A leaf of 10 x 10 about the origin, or the disc within it.
+/// A leaf of 10 x 10 around the origin, or the disc within it.
 TreeModel large_leaf(bool disc) {
   TreeModel tree = test::tree_of({test::card(10, 10)});
   if (!disc) return tree;
@@ -46,14 +46,14 @@ TEST(LayersOfLeaf, AreOneOnALargeFlatLeaf) {
         options.radius_unit = RadiusUnit::model;
         options.radius_max = 1;
         const Layers layers(extract(leaves, options, device()));
-        // Control leaves R_max near to the rim, where N_iso is low: with fine parts these kernels
-        // add up to 5% to what lies just inside of them.
+        // Near the rim N_iso is low, so kernels keep R_max there. With fine parts they add up to 5%
+        // to N just inside the rim.
         const bool rim = method == Method::controlled && spacing < 0.25;
         const double most = rim ? 3.5 : 4;
         double low = HUGE_VAL, high = 0;
         for (double x = -most; x <= most; x += 0.0437) {
           for (double y = -most; y <= most; y += 0.0437) {
-            if (disc && std::hypot(x, y) > most - 0.05) continue;  // texels are not quite a disc
+            if (disc && std::hypot(x, y) > most - 0.05) continue;  // texels only approximate a disc
             const double n = layers({x, y, 0});
             low = std::min(low, n);
             high = std::max(high, n);
@@ -114,7 +114,7 @@ TEST(LeafArea, IsThatOfTheKernelsAndOfTheMask) {
   }
 }
 
-/// The share of some places whose density is T or more.
+/// The share of the points whose density is T or more.
 double share_inside(const std::vector<double>& density, double threshold) {
   const auto inside = std::ranges::count_if(density, [&](double n) { return n >= threshold; });
   return static_cast<double>(inside) / static_cast<double>(density.size());
@@ -137,10 +137,10 @@ TEST(Coverage, IsTheShareOfLeafAreaInside) {
       Options options = at(Preset::draft);
       options.coverage = coverage;
       const Shape shape = extract(leaves, options, device());
-      if (density.empty()) density = density_at(places, shape);  // T changes no kernel
+      if (density.empty()) density = density_at(places, shape);  // T does not change the kernels
       EXPECT_NEAR(share_inside(density, shape.report.threshold), coverage, 0.02);
       EXPECT_NEAR(shape.report.covered, coverage, 0.005);
-      EXPECT_FALSE(says(shape.report.warnings, "cannot be had"));
+      EXPECT_FALSE(says(shape.report.warnings, "cannot be reached"));
     }
   }
 }
@@ -229,7 +229,7 @@ TEST(BadInput, MoreThanTenMillionPointsAreRefused) {
   }
 }
 
-/// However small R_max is: a shape, or an error that says what to change.
+/// Any R_max, however small, gives a shape or an error that says what to change.
 TEST(BadInput, AnyRadiusFarBelowALeafWorksOrSaysWhy) {
   const LeafSet leaves = find_leaves(test::crossed_billboard(), {});
   int shapes = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Small trees whose visible leaf area is known, and the same trees tessellated otherwise.
+// Small trees with a known visible leaf area, and the same trees with another tessellation.
 #pragma once
 
 #include <algorithm>
@@ -16,11 +16,11 @@
 
 namespace leafhull::test {
 
-/// The same numbers on every machine.
+/// Random numbers that are the same on every machine.
 class Random {
  public:
   explicit Random(unsigned seed) : engine_(seed) {}
-  /// From 0 up to 1.
+  /// A number in [0, 1).
   double operator()() { return static_cast<double>(engine_()) / 4294967296.0; }
   Vec3d in_ball(double radius) {
     for (;;) {
@@ -35,14 +35,14 @@ class Random {
   std::mt19937 engine_;
 };
 
-/// Four corners around a centre; its texture coordinates are the unit square.
+/// Adds four corners around a centre; the texture coordinates are the unit square.
 inline void add_card(Primitive& primitive, Vec3d centre, Vec3d u, Vec3d v) {
   add_quad(primitive, {Vec3f(centre - u - v), Vec3f(centre + u - v), Vec3f(centre + u + v),
                        Vec3f(centre - u + v)});
   primitive.uvs.insert(primitive.uvs.end(), {Vec2f{0, 1}, {1, 1}, {1, 0}, {0, 0}});
 }
 
-/// Cards of any direction in a ball.
+/// Cards in random directions in a ball.
 inline Primitive cards_in_ball(int count, double radius, double width, double height) {
   Random random(5);
   Primitive primitive;
@@ -54,7 +54,7 @@ inline Primitive cards_in_ball(int count, double radius, double width, double he
   return primitive;
 }
 
-/// An ellipse away from the middle and a hole in it, 32 texels wide.
+/// An off-centre ellipse with a hole, 32 texels wide.
 inline Image leaf_mask() {
   return alpha_image(32, [](double u, double v) {
     return std::hypot((u - 0.45) / 0.35, (v - 0.55) / 0.4) <= 1 &&
@@ -64,15 +64,15 @@ inline Image leaf_mask() {
   });
 }
 
-/// Large cards, mostly transparent.
+/// Large cards that are mostly transparent.
 inline TreeModel card_tree(int count = 120) {
   return masked(tree_of({cards_in_ball(count, 2, 1.2, 0.9)}), leaf_mask());
 }
 
-/// Much smaller than a point's spacing, and thin.
+/// Thin leaves that are much smaller than the spacing of points.
 inline TreeModel needle_tree() { return tree_of({cards_in_ball(8000, 1.5, 0.3, 0.02)}); }
 
-/// Two cards that cross; visible is -0.8 to 0.6 across and -0.9 to 0.7 along, from the middle.
+/// Two crossing cards, visible from -0.8 to 0.6 across and from -0.9 to 0.7 along their middle.
 inline TreeModel crossed_billboard() {
   Primitive primitive;
   add_card(primitive, {}, {1, 0, 0}, {0, 1, 0});
@@ -80,7 +80,7 @@ inline TreeModel crossed_billboard() {
   return masked(tree_of({primitive}), leaf_mask());
 }
 
-/// A closed crown of 80 faces, its corners at a distance of 2.
+/// A closed crown of 80 faces with its corners at distance 2.
 inline TreeModel closed_sphere() {
   Primitive p;
   const float g = std::numbers::phi_v<float>;
@@ -91,7 +91,7 @@ inline TreeModel closed_sphere() {
       p.positions.push_back({b, 0, a});
     }
   }
-  // Its faces are the triples of corners that are 2 apart, turned outward.
+  // The faces are the triples of corners that are 2 apart, turned outward.
   const auto near = [&](std::uint32_t a, std::uint32_t b) {
     return length(p.positions[a] - p.positions[b]) < 2.1f;
   };
@@ -122,8 +122,8 @@ inline TreeModel closed_sphere() {
   return tree_of({fine});
 }
 
-/// Cards that lie where the faces of closed_sphere() do, next to each other but apart: a crown that
-/// encloses a hollow and is no solid.
+/// Separate cards in place of the faces of closed_sphere(): a crown that encloses a hollow but is
+/// not a solid.
 inline TreeModel sphere_of_cards() {
   TreeModel tree = closed_sphere();
   const Primitive whole = tree.primitives[0];
@@ -141,7 +141,7 @@ inline TreeModel sphere_of_cards() {
   return tree;
 }
 
-/// A closed crown of six faces, 3 x 2 x 2.
+/// A closed crown of six faces that measures 3 x 2 x 2.
 inline TreeModel closed_box() {
   Primitive p;
   const Vec3d half[] = {{1.5, 0, 0}, {0, 1, 0}, {0, 0, 1}};
@@ -154,7 +154,7 @@ inline TreeModel closed_box() {
   return tree_of({p});
 }
 
-/// Half a cylinder of radius 1.5, welded: flat quads along its axis, visible in discs.
+/// Half a cylinder of radius 1.5, welded from flat quads along its axis and visible in discs.
 inline TreeModel curved_sheet() {
   constexpr int kAround = 12, kAlong = 8;
   Primitive p;
@@ -180,7 +180,7 @@ inline TreeModel curved_sheet() {
                 }));
 }
 
-/// Every triangle as four, by the middles of its sides.
+/// Cuts every triangle into four at the midpoints of its sides.
 inline Primitive in_quarters(const Primitive& whole) {
   Primitive fine = whole;
   fine.triangles.clear();
@@ -205,7 +205,7 @@ inline Primitive in_quarters(const Primitive& whole) {
   return fine;
 }
 
-/// Every triangle has vertices of its own.
+/// Gives every triangle its own vertices.
 inline Primitive with_split_vertices(const Primitive& whole) {
   Primitive split;
   for (const auto& triangle : whole.triangles) {
@@ -219,7 +219,7 @@ inline Primitive with_split_vertices(const Primitive& whole) {
   return split;
 }
 
-/// Pairs of triangles a b c, a c d as b c d, b d a, and all in another order.
+/// Turns pairs of triangles a b c, a c d into b c d, b d a, and reorders all of them.
 inline Primitive along_the_other_diagonal(const Primitive& whole) {
   Primitive other = whole;
   for (std::size_t i = 0; i + 1 < other.triangles.size(); i += 2) {

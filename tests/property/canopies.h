@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Trees of a forest, and its canopy tile by tile.
+// Helpers for the trees of a forest, and its canopy tile by tile.
 #pragma once
 
 #include <cmath>

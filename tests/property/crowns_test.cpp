@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whole shapes of trees whose crowns are closed surfaces, as those of low-poly trees are.
+// Whole shapes of trees with closed crowns, as low-poly trees have.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -146,7 +146,7 @@ TEST(ClosedCrown, IsFilledWhicheverWayItsFacesAreTurned) {
 }
 
 TEST(ClosedCrown, OfCubesIsOneCrown) {
-  // Two in a row, one on top and one behind, whose faces between them are doubled.
+  // Two boxes in a row, one on top and one behind; the faces between them are doubled.
   TreeModel tree = test::closed_box();
   const Primitive cube = tree.primitives[0];
   Primitive all;
@@ -165,7 +165,7 @@ TEST(ClosedCrown, OfCubesIsOneCrown) {
   EXPECT_LT(volume(shape.mesh), 1.6 * 48);
 }
 
-/// The triangles of all tiles of a forest of such trees, in world coordinates.
+/// The triangles of all tiles of a forest with that tree, in world coordinates.
 std::vector<Corners> canopy_of_crown(const PlacedTree& tree, const Options& options, int edge) {
   Scene scene;
   scene.models.resize(1);
@@ -179,7 +179,7 @@ std::vector<Corners> canopy_of_crown(const PlacedTree& tree, const Options& opti
 
 TEST(ClosedCrown, IsTheSameInAForest) {
   ForestOptions forest;
-  forest.shape.min_component = 0;  // small pieces over seams are known once all tiles are
+  forest.shape.min_component = 0;  // tiles alone do not show how large a piece over seams is
   Options options = resolved_shape(forest);
   options.preset.reset(), options.resolution.reset();
   options.voxel_size = 0.08;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What must hold of whole extractions, on shapes whose answer is known and on a real tree.
+// Whole extractions of shapes with a known answer and of a real tree.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -119,7 +119,7 @@ TEST(OneKernel, ConvergesToTheEllipsoid) {
 }
 
 TEST(Octahedron, OfSixKernelsByHand) {
-  // Six centres at distance 1 from the origin, R = 1.5: xi = 4/9 there, N = 6 * (5/9)^2.
+  // Six centres at distance 1 from the origin, R = 1.5: there xi = 4/9 and N = 6 * (5/9)^2.
   std::vector<LeafVertex> corners;
   for (const double s : {-1.0, 1.0}) {
     corners.push_back(leaf_at({s, 0, 0}));
@@ -128,17 +128,17 @@ TEST(Octahedron, OfSixKernelsByHand) {
   }
   const double middle = 6 * 25.0 / 81;
   const LeafSet leaves = leaf_set(corners);
-  // The origin, a sample, is where N is largest.
+  // N is largest at the origin, which is a sample.
   EXPECT_THROW(extract(leaves, isotropic(1.5, middle + 1e-4, 0.05), device()), Error);
   const Shape shape = extract(leaves, isotropic(1.5, middle - 1e-4, 0.05), device());
   EXPECT_EQ(shape.report.metrics.inside_voxels, 0u);
   EXPECT_EQ(shape.report.metrics.on_voxels, 8u);
 
-  // N_iso at a centre: itself, its opposite (2 apart: none), four at a distance of sqrt 2 (xi =
-  // 8/9).
+  // N_iso at a centre: 1 from itself, nothing from its opposite 2 away, and (1/9)^2 from each of
+  // four at distance sqrt 2 (xi = 8/9).
   for (const float n : shape.isotropic_density) EXPECT_NEAR(n, 1 + 4 / 81.0, 1e-6);
 
-  // The world's origin is a sample, so the mesh has the octahedron's symmetry.
+  // The origin is a sample, so the mesh has the octahedron's symmetry.
   const Shape wide = extract(leaves, isotropic(1.5, 1, 0.05), device());
   Box box;
   for (const Vec3f p : wide.mesh.positions) box.include(Vec3d(p));
@@ -203,7 +203,7 @@ TEST(Leaves, OrderAndSplittingOfVerticesChangeNothing) {
   TreeModel other = tree;
   std::mt19937 random(1);
   for (Primitive& p : other.primitives) {
-    // Every triangle gets vertices of its own, in another order.
+    // Every triangle gets its own vertices, in another order.
     Primitive split = p;
     split.positions.clear(), split.normals.clear(), split.uvs.clear();
     std::shuffle(split.triangles.begin(), split.triangles.end(), random);
@@ -259,7 +259,7 @@ TEST(Extraction, BothVariantsGiveTheSameShape) {
 }
 
 TEST(FarFromTheOrigin, TheShapeIsTheSame) {
-  // A shift by a whole number of blocks of the lattice: not a bit may differ but for the origin.
+  // After a shift by a whole number of lattice blocks, nothing but the origin may differ by a bit.
   const double h = 0.25, radius = 0.5;
   LeafSet leaves = ash();
   LeafSet far = leaves;

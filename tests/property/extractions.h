@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What many tests of whole extractions begin with, and what they compare.
+// Inputs and comparisons that many tests of whole extractions share.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ inline Device& device() {
   return device;
 }
 
-/// The leaves of the example.
+/// The leaves of the example tree.
 inline const LeafSet& ash() {
   static const LeafSet leaves = find_leaves(read_tree(LEAFHULL_EXAMPLES "/ash.glb"), {});
   return leaves;
@@ -35,7 +35,7 @@ inline Shape shape_of(const TreeModel& tree, const Options& options) {
   return extract(find_leaves(tree, {}), options, device());
 }
 
-/// Of places, the share outside a mesh, by means of the tests' own.
+/// The share of the points that lie outside a mesh, computed without leafhull's code.
 inline double share_outside(std::span<const Vec3d> places, const Shape& shape) {
   const Solid solid(corners_of(shape.mesh), 2 * shape.report.voxel_size);
   const auto outside = std::ranges::count_if(places, [&](Vec3d p) { return !solid.holds(p); });

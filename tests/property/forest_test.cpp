@@ -59,14 +59,14 @@ Scene grove(Vec3d origin) {
                                  origin + Vec3d(30 * uniform(), uniform(), 30 * uniform()),
                                  6 * uniform(), 0.7 + 0.6 * uniform()));
   }
-  scene.trees.push_back(scene.trees.front());  // two trees in one place
-  scene.trees.back().linear[1] = 0.4f;         // and one of them sheared
+  scene.trees.push_back(scene.trees.front());  // two trees in one place,
+  scene.trees.back().linear[1] = 0.4f;         // one of them sheared
   return scene;
 }
 
 Options options(std::optional<double> radius_max = {}) {
   Options o;
-  o.points = PointSource::vertices;  // the crowns below have nothing else
+  o.points = PointSource::vertices;  // the crowns below only have vertices
   o.voxel_size = 0.2;
   o.radius_max = radius_max;
   return resolve(o);
@@ -83,7 +83,7 @@ Point point(const Mesh& mesh, std::uint32_t v) {
   return {p.x, p.y, p.z, n.x, n.y, n.z};
 }
 
-/// All tiles together, corners of a triangle beginning with the least.
+/// The surface of all tiles; the corners of a triangle begin with the least.
 Surface surface_of(const ForestLevel& level, int edge) {
   Surface all;
   const TilePlan plan(level, edge);
@@ -109,7 +109,7 @@ Surface surface_of(const ForestLevel& level, int edge) {
   return all;
 }
 
-/// Edges that are not met once in each direction.
+/// The number of edges that do not occur once in each direction.
 std::size_t open_edges(const Surface& surface) {
   std::map<std::pair<Point, Point>, int> edges;
   for (const FacePoints& t : surface.triangles) {
@@ -126,7 +126,7 @@ ForestLevel level_of(const Scene& scene, int number = 0, const Options& resolved
   const std::vector<LeafSet> models{crown(1, 900, 3), crown(2, 500, 2)};
   const std::vector<Options> shapes(models.size(), resolved);
   const ForestLevel finest = prepare_level(0, scene, models, shapes, 0.2, nullptr, device());
-  // Its `least` stays 0: small pieces over seams are known once all tiles are.
+  // `least` stays 0, because tiles alone do not show how large a piece over seams is.
   return number == 0 ? finest
                      : prepare_level(number, scene, models, shapes, 0.2, &finest, device());
 }
@@ -165,7 +165,7 @@ TEST(Forest, WithControlOverTheScene) {
   expect_same_surface(surface_of(level, 64), surface_of(level, 512));
 }
 
-/// Kernels around a tile have their radii from trees that are farther than any kernel of them.
+/// The radii of kernels around a tile depend on trees whose own kernels do not reach the tile.
 TEST(Forest, WithControlByTreesThatReachOnlyItsNeighbours) {
   Scene scene;
   scene.models.resize(2);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Hollows of whole shapes: filled alike in everything that is made of one.
+// The hollows of a whole shape are filled alike in everything made from it.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -21,8 +21,7 @@ using test::volume;
 
 constexpr double kRadius = 10, kReach = 2, kThreshold = 1.5;
 
-/// A crown whose leaves are a sphere and nothing within, with a hole at the top of `open`
-/// half-width.
+/// A crown whose leaves lie only on a sphere, with a hole of half-width `open` at the top.
 LeafSet hollow_crown(double open = 0) {
   constexpr int kLeaves = 3000;
   LeafSet leaves;
@@ -64,7 +63,7 @@ TEST(Hollows, OfACrownAreFilled) {
   for (const Vec3f p : filled.mesh.positions) outer = std::max(outer, length(Vec3d(p)));
   EXPECT_NEAR(volume(filled.mesh) / sphere(outer), 1, 0.05);
   EXPECT_LT(volume(kept.mesh), 0.6 * sphere(outer));
-  // A sphere's volume in voxels, half of those on its surface being within.
+  // The sphere's volume in voxels; half of the voxels on its surface count as inside.
   const Metrics& m = filled.report.metrics;
   const double voxels =
       static_cast<double>(m.inside_voxels) + 0.5 * static_cast<double>(m.on_voxels);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The two meshers, which share no code, against each other.
+// Compares the two meshers, which share no code.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whole pictures: drawn directly they agree with those of the mesh, and in motion paint stays where
-// it belongs.
+// Whole pictures: direct ones agree with those of the mesh, and in motion paint stays in its place.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -33,10 +32,10 @@ Subject subject_of(const std::shared_ptr<const TreeModel>& tree, const Options& 
 
 /// How well two pictures of one view agree.
 struct Agreement {
-  double overlap = 0;      ///< of the silhouettes: intersection over union
-  double foliage = 0;      ///< the same of the foliage alone
-  double median_turn = 0;  ///< between the normals, degrees
-  double far_apart = 0;    ///< share of pixels on one silhouette alone and over a pixel from both
+  double overlap = 0;      ///< the silhouettes' intersection over their union
+  double foliage = 0;      ///< the same for the foliage alone
+  double median_turn = 0;  ///< median angle between the normals, degrees
+  double far_apart = 0;  ///< share of pixels in one silhouette that are over a pixel from the other
 };
 
 Agreement agreement(const Buffers& a, const Buffers& b) {
@@ -58,7 +57,7 @@ Agreement agreement(const Buffers& a, const Buffers& b) {
         turns.push_back(std::acos(cosine) * 180 / M_PI);
       }
       if (in_a == in_b) continue;
-      // A pixel beside it is on the other silhouette too.
+      // The pixel counts unless a neighbour lies on the other silhouette.
       const Buffers& other = in_a ? b : a;
       bool near = false;
       for (int j = std::max(y - 1, 0); j <= std::min(y + 1, a.height - 1); ++j) {
@@ -81,7 +80,7 @@ void expect_direct_as_mesh(const std::filesystem::path& file, Style style) {
   const auto tree = shared_tree(file);
   Options options;
   options.style = style;
-  // The mesh takes finer voxels to come as near to the density where radii are small.
+  // Where radii are small, the mesh needs finer voxels to come as close to the density.
   options.preset = style == Style::painterly ? Preset::standard : Preset::fine;
   PictureOptions picture;
   picture.width = picture.height = 640;
@@ -144,7 +143,7 @@ double change(const Rendering& a, const Rendering& b) {
   return sum / static_cast<double>(count);
 }
 
-/// The classic style with some keys of its own.
+/// The classic style with some keys replaced.
 WatercolourStyle classic_with(const std::string& keys) {
   const auto file = std::filesystem::path(testing::TempDir()) / "leafhull-style.json";
   std::ofstream(file) << "{" << keys << "}";
@@ -153,7 +152,7 @@ WatercolourStyle classic_with(const std::string& keys) {
   return style;
 }
 
-/// Without grain of pigment or paper, whatever its seed.
+/// Keys that leave out the grain of pigment and paper, whatever the seed.
 const char* const kNoGrain =
     R"("roughness": 0, "relief": 0, "warm_cool": 0, "turbulence": 0, "backruns": 0, "dispersion": 0,
        "wobble": 0, "detail": 0)";
@@ -168,11 +167,11 @@ PictureOptions watercolour(const WatercolourStyle& style, double degrees = 0) {
   return options;
 }
 
-/// How much paint moves when the subject does: with grain that stays in its space, with grain that
-/// is another in each frame, and without.
+/// How much paint changes when the subject moves: with grain that stays in the subject's space,
+/// with grain that differs in each frame, and without grain.
 struct Motion {
   double coherent, swimming, without;
-  /// What grain adds to the change, as a share of what it adds where it swims.
+  /// What grain adds to the change, as a share of what it adds if it differs in each frame.
   double of_grain() const { return (coherent - without) / (swimming - without); }
 };
 
@@ -196,7 +195,7 @@ TEST(WatercolourInMotion, GrainStaysOverATurn) {
   const Subject ash = subject_of(shared_tree(std::filesystem::path(LEAFHULL_EXAMPLES) / "ash.glb"),
                                  {}, Surfacing::direct);
   EXPECT_LT(motion(ash, ash, 1).of_grain(), 0.25);
-  // What stays changes with the motion; what swims changes whatever the motion.
+  // Grain that stays adds little, less the smaller the motion; grain that swims always adds much.
   EXPECT_LT(motion(ash, ash, 0.1).of_grain(), 0.05);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A series must say of each entry what a single extraction says.
+// Each entry of a series must report the same as a single extraction.
 #include "leafhull/series.h"
 
 #include <gtest/gtest.h>

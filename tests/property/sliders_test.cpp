@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// An erosion and a dilation that are asked for are those of the shape.
+// A shape has the erosion and the dilation that were asked for.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -63,7 +63,7 @@ struct SliderTree {
   const char* name;
   const LeafSet& (*leaves)();
   std::vector<std::pair<double, double>> reachable;  ///< erosion and dilation
-  std::vector<double> dilations;                     ///< with any erosion from 0.05 to 0.2
+  std::vector<double> dilations;                     ///< reachable with any erosion in [0.05, 0.2]
 };
 const SliderTree kSliderTrees[] = {
     {"ash",
@@ -257,7 +257,7 @@ TEST_P(Sliders, ASeriesSaysWhatAnExtractionSays) {
   extract_series(leaves, series, device(), [&](std::size_t index, SeriesEntry&& entry) {
     SCOPED_TRACE(index);
     if (index + 1 == series.size()) {
-      EXPECT_NE(entry.failure.find("a dilation of 0.97 cannot be had"), std::string::npos);
+      EXPECT_NE(entry.failure.find("a dilation of 0.97 cannot be reached"), std::string::npos);
       ++failures;
       return true;
     }
@@ -292,7 +292,7 @@ TEST(SlidersOfAnAsh, WorkAtVertices) {
   }
 }
 
-/// The usage error that an extraction must end in, with its remedy.
+/// Expects the extraction to fail with a usage error; returns the error with its remedy.
 std::string refusal(const LeafSet& leaves, const Options& options) {
   try {
     extract(leaves, options, device());
@@ -309,7 +309,7 @@ bool has(const std::string& text, std::string_view words) {
   return text.find(words) != std::string::npos;
 }
 
-/// The number that a refusal offers instead: the last one in it.
+/// The number that a refusal offers instead.
 double offered(const std::string& refusal) {
   const std::string words = " to 0.";  // "it goes down to 0.31, with ..."
   const std::size_t at = refusal.find(words);
@@ -319,7 +319,7 @@ double offered(const std::string& refusal) {
 
 TEST_P(Sliders, ADilationThatCannotBeHadSaysWhatCan) {
   const std::string said = refusal(GetParam().leaves(), asked(0.1, 0.97));
-  EXPECT_PRED2(has, said, "a dilation of 0.97 cannot be had");
+  EXPECT_PRED2(has, said, "a dilation of 0.97 cannot be reached");
   EXPECT_GT(offered(said), 0.3);
   EXPECT_LT(offered(said), 0.97);
 }
@@ -336,14 +336,14 @@ TEST(SlidersOfACard, AnErosionOfASheetOfOneDensityIsRefused) {
   const LeafSet card = find_leaves(test::tree_of({test::card(10, 10)}), {});
   const std::string said = refusal(card, asked(0.3, {}));
   EXPECT_PRED2(has, said, "sheets of one density") << said;
-  EXPECT_PRED2(has, said, "an erosion of 0.3 cannot be had") << said;
+  EXPECT_PRED2(has, said, "an erosion of 0.3 cannot be reached") << said;
   Options options = asked(0.3, {});
   options.erosion.reset();
   options.coverage = 0.98;
   EXPECT_NO_THROW(extract(card, options, device()));
 }
 
-/// A forest of trees of two kinds, one of each.
+/// A forest with one tree of each of two kinds.
 struct Forest {
   Scene scene;
   std::vector<LeafSet> models;
@@ -376,7 +376,7 @@ TEST(SlidersOfAForest, AreThoseOfEachOfItsTrees) {
   ForestOptions asked_for;
   asked_for.shape = asked(0.1, 0.6);
   asked_for.shape.preset.reset();
-  asked_for.shape.min_component = 0;  // small pieces over seams are known once all tiles are
+  asked_for.shape.min_component = 0;  // tiles alone do not show how large a piece over seams is
   asked_for.shape.voxel_size = cards().crown.longest_side() / 100;
   const Options options = resolved_shape(asked_for);
   const Forest forest = forest_of(options);
@@ -387,7 +387,7 @@ TEST(SlidersOfAForest, AreThoseOfEachOfItsTrees) {
     const LeafSet& leaves = other ? more_cards() : cards();
     const Shape alone = extract(leaves, options, device());
     expect_kept(alone.report, options);
-    // Alone, T is corrected for what the lattice does not show.
+    // For a single tree, T is corrected for what the lattice misses.
     EXPECT_NEAR(*forest.shapes[other].radius_max / *alone.report.options.radius_max, 1, 0.05);
     EXPECT_GT(test::volume(alone.mesh), 5);
     EXPECT_NEAR(test::volume(canopy_of(forest, other)) / test::volume(alone.mesh), 1, 0.05);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A few leaves far from a tree change nothing of it that can be seen.
+// A few leaves far from a tree change nothing visible.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -30,7 +30,7 @@ TreePointer shared_ash() {
   return tree;
 }
 
-/// The tree with some of its leaf cards again, `crowns` crown heights away.
+/// The tree with copies of some leaf cards, `crowns` crown heights away.
 TreePointer with_strays(const TreeModel& tree, std::size_t count, Vec3d crowns) {
   auto changed = std::make_shared<TreeModel>(tree);
   const double height = find_leaves(tree, {}).crown.size().y;
@@ -73,7 +73,7 @@ TEST_P(Strays, AreSaid) {
 }
 
 TEST_P(Strays, KeepTheCrownUnitTheVoxelsAndTheVolume) {
-  const Options options;  // painterly
+  const Options options;  // the style is painterly
   const Shape plain = extract(leaves_, options, device());
   const Shape littered = extract(all_, options, device());
   EXPECT_EQ(littered.report.radius_max_model, plain.report.radius_max_model);
@@ -144,7 +144,7 @@ TEST(FarStrays, KeepTheShapeAsFarAsTheLatticeCounts) {
   }
 }
 
-// Who fills a LeafSet by hand may forget it.
+// Code that fills a LeafSet by hand may forget to set the crown.
 TEST(Crown, MustBeSet) {
   LeafSet leaves = find_leaves(*shared_ash(), {});
   leaves.crown = {};

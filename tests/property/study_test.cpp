@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A whole study of a small tree, held against single extractions.
+// Compares a whole study of a small tree with single extractions.
 #include "leafhull/study.h"
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ namespace {
 
 using test::device;
 
-/// Leaves of every direction in a ball, as many as `count`.
+/// `count` leaves in random directions in a ball.
 LeafSet ball(std::size_t count, float radius_major) {
   std::mt19937 random(7);
   std::normal_distribution<double> normal;
@@ -122,7 +122,7 @@ TEST(StudyBand, LosesWhatThePaperLoses) {
   const LeafSet fitted = scaled(leaves, band.leaf_scale);
   expect_same_metrics(band.uncontrolled.metrics,
                       extracted(fitted, band.uncontrolled, kBandReading).metrics);
-  // The first band is that of Eqs. (9) and (10), which a row has by itself.
+  // The first band is that of Eqs. (9) and (10), a row's default.
   const StudyRow& usual = band.by_deviation.front().row;
   expect_same_metrics(usual.metrics, extracted(fitted, usual, kBandReading).metrics);
 }
@@ -146,7 +146,7 @@ TEST(StudyBand, GoesFromOneEndToTheOther) {
 }
 
 TEST(StudyBand, SaysWhatCannotBeFitted) {
-  // In two places each leaf vertex is as dense as any other.
+  // With leaves in two places, all leaf vertices have the same density.
   LeafSet leaves = ball(2, 0.2F);
   const LeafVertex first = leaves.vertices[0], second = leaves.vertices[1];
   for (int i = 0; i < 50; ++i) {

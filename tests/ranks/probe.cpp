@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A rank of test_ranks.py: does what its first word says and tells it in a file named after its
-// rank in the folder of the second: mpirun mixes what ranks print.
+// A rank of test_ranks.py: does what its first argument says and writes the result to a file named
+// after its rank in the folder of its second argument, because mpirun mixes what ranks print.
 #include <fcntl.h>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -56,11 +56,11 @@ void compute(double seconds) {
   while (since(begin) < seconds) continue;
 }
 
-/// Numbers, in two rounds.
+/// Takes numbers in two rounds.
 void count() {
   constexpr std::uint64_t kBound = 100'000;
   for (int round = 0; round < 2; ++round) {
-    ranks->barrier();  // so that all take at once
+    ranks->barrier();  // all ranks begin at the same time
     std::string taken = std::to_string(round);
     for (std::uint64_t n = ranks->next(); n < kBound; n = ranks->next()) {
       taken += ' ' + std::to_string(n);
@@ -79,7 +79,7 @@ void sum() {
   say_line(ranks->add(Sum::tiles, 0), ranks->add(Sum::leaf_vertices, 0), ranks->last(Sum::tiles));
 }
 
-/// More numbers than fit into one message of a usual size.
+/// Sums more numbers than fit into a message of the usual size.
 void add_up() {
   std::vector<std::uint64_t> numbers(1 << 20);
   for (std::size_t i = 0; i < numbers.size(); ++i) {
@@ -97,7 +97,7 @@ void talk() {
   }
 }
 
-/// How long the others wait for numbers while rank 0 computes.
+/// Measures how long the others wait for numbers while rank 0 computes.
 void busy() {
   ranks->barrier();
   if (ranks->rank() == 0) return compute(1);
@@ -112,7 +112,7 @@ void busy() {
   say_line(sum / kTimes, worst);
 }
 
-/// What waiting costs.
+/// Measures the CPU time that waiting costs.
 void idle() {
   ranks->barrier();
   const double before = cpu_seconds();
@@ -121,7 +121,7 @@ void idle() {
   say_line(cpu_seconds() - before);
 }
 
-/// The handler that a rank of a run has, in short.
+/// A short version of the handler that a rank of a run has.
 extern "C" void tell(int signal) {
   say(ranks->leave() ? "first" : "later");
   for (int rank = 0; rank < ranks->size(); ++rank) {

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Ranks under mpirun, each a process of RANK_PROBE."""
+"""Ranks under mpirun; each is a process of RANK_PROBE."""
 
 import os
 import pathlib
@@ -25,7 +25,7 @@ def has_other_hosts():
 
 class RanksTest(unittest.TestCase):
     def run_ranks(self, deed, launcher=(), env=None):
-        """The result, and what each rank has said: a list of words per line."""
+        """The result, and for each rank what it wrote: a list of words per line."""
         with tempfile.TemporaryDirectory() as folder:
             command = [str(word) for word in (*launcher, PROBE, deed, folder)]
             result = subprocess.run(
@@ -130,7 +130,7 @@ class OneHost(RanksTest):
                 self.assertEqual(words[1:], [str(victim)] if rank in mates else [], said)
 
     def mates_of(self, victim):
-        """The others on its host."""
+        """The other ranks on the victim's host."""
         return [rank for rank in range(4) if rank != victim]
 
     def test_who_is_who(self):

@@ -28,7 +28,7 @@ void check_frames(const Extraction& extraction, Table& table) {
   table.require("frame error, largest", worst, 0, 1e-5);
 }
 
-/// SPEC: 4 and 5, radius units and presets.
+/// Checks radius units and presets. SPEC: 4 and 5.
 void check_lengths(const Extraction& extraction, Table& table) {
   double longest = 0;
   for (const char* axis : {"x", "y", "z"}) {
@@ -47,7 +47,7 @@ void check_lengths(const Extraction& extraction, Table& table) {
   table.compare_near("resolution", extraction.number("resolution"), cells, 0.5);
 }
 
-/// What a kernel stands for in sums over the leaves: its area, w pi R_u R_v / (k + 1), or one
+/// The share of each kernel in sums over the leaves: its area, w pi R_u R_v / (k + 1), or one
 /// vertex.
 std::vector<double> shares(const Extraction& extraction) {
   const auto& ru = extraction.kernels.property("ru");
@@ -61,7 +61,7 @@ std::vector<double> shares(const Extraction& extraction) {
   return shares;
 }
 
-/// N_iso counts layers of leaf, or leaf vertices: then its kernels have a weight of 1.
+/// N_iso at each kernel. It counts layers of leaf, or leaf vertices, whose kernels have weight 1.
 std::vector<double> isotropic_density(const Extraction& extraction) {
   const auto centres = extraction.kernels.points("x", "y", "z");
   const double radius = extraction.number("radius_max_model");
@@ -96,13 +96,13 @@ struct Band {
   }
 };
 
-/// A number and how far another may be from it.
+/// A number and its tolerance.
 struct Expected {
   double value, error;
 };
 
-/// The density that a share of the leaves does not exceed, and how far it is from those that
-/// rounding may pick instead: its neighbours in rank, where just that share ends at one.
+/// The density that a share of the leaves does not exceed. Where that share ends exactly at a leaf,
+/// rounding may pick a neighbour in rank instead, and the tolerance allows for it.
 Expected quantile(const std::vector<double>& densities, const std::vector<double>& share,
                   double percent) {
   std::vector<std::pair<double, double>> ranked;
@@ -127,8 +127,8 @@ Expected quantile(const std::vector<double>& densities, const std::vector<double
   return {value, error};
 }
 
-/// Eqs. (9), (10), or the shares of the leaves. The tolerances follow from each N_iso being known
-/// to kRounding.
+/// Checks Eqs. (9) and (10), or the shares of the leaves. The tolerances follow from each N_iso
+/// being known to kRounding.
 Band check_statistics(const Extraction& extraction, const std::vector<double>& densities,
                       Table& table) {
   const auto& stored = extraction.kernels.property("density");
@@ -164,7 +164,7 @@ Band check_statistics(const Extraction& extraction, const std::vector<double>& d
     p1.error = p2.error = std::max(p1.error, p2.error);
   }
   const auto& report = extraction.report.at("density");
-  // Unlike leaf vertices, leaf points are rounded to the floats of the file, and weights too.
+  // The file rounds leaf points and their weights, unlike leaf vertices, to floats.
   table.require("N_iso, largest relative error", worst, 0,
                 extraction.by_area() ? 5 * kRounding : kRounding);
   table.compare_near("density mean", report.at("mean"), mean, mean_error);
@@ -180,7 +180,7 @@ Band check_statistics(const Extraction& extraction, const std::vector<double>& d
   return {p1.value, p2.value};
 }
 
-/// The radii of each kernel against its method. Rounding of N_iso makes Eq. (8)'s weight a range.
+/// Checks each kernel's radii against its method. Rounding of N_iso makes Eq. (8)'s weight a range.
 class RadiusCheck {
  public:
   RadiusCheck(const Extraction& extraction, Band band, const std::vector<double>& densities)
@@ -193,14 +193,14 @@ class RadiusCheck {
         rv_(extraction.kernels.property("rv")),
         rn_(extraction.kernels.property("rn")) {}
 
-  /// Eq. (8) scales all axes alike, so R_u >= R_v and Eq. (7) leave their trace in the radii used.
+  /// Eq. (8) scales all axes alike, so R_u >= R_v and Eq. (7) show in the radii used.
   std::size_t count_off_method() const {
     return count([&](std::size_t i) {
       const auto [low, high] = weights(i);
       if (high == 0) {
         return is_radius_max(ru_[i]) && is_radius_max(rv_[i]) && is_radius_max(rn_[i]);
       }
-      // Of a leaf wider than R_max the width used does not tell R_v, but that it is at least that.
+      // If a leaf is wider than R_max, the width used is only a lower bound of R_v.
       const double high_rn = is_radius_max(rv_[i]) ? radius_max_ : normal_radius(rv_[i], high);
       return ru_[i] >= rv_[i] - rounding() &&
              (is_between(rn_[i], normal_radius(rv_[i], low), high_rn) ||
@@ -208,7 +208,7 @@ class RadiusCheck {
     });
   }
 
-  /// Eq. (8) itself, from the leaves' own radii.
+  /// Checks Eq. (8) itself with the leaves' own radii.
   std::size_t count_off_equation_8(const Ply& leaf_kernels) const {
     const auto &leaf_u = leaf_kernels.property("ru"), &leaf_v = leaf_kernels.property("rv");
     return count([&](std::size_t i) {
@@ -236,13 +236,12 @@ class RadiusCheck {
   double used_radius(double leaf_radius, double weight) const {
     return within_bounds(radius_max_ + (leaf_radius - radius_max_) * weight);
   }
-  /// Eq. (7) carried through Eq. (8): r_n - b = lambda (r_v - b), b being the part of R_max in
-  /// both.
+  /// Eq. (7) after Eq. (8): r_n - b = lambda (r_v - b), where b is the part of R_max in both.
   double normal_radius(double minor_radius, double weight) const {
     const double shared = radius_max_ * (1 - weight);
     return within_bounds(shared + flatness_ * (minor_radius - shared));
   }
-  /// SPEC: 1 and 1b.
+  /// The bounds of SPEC: 1 and 1b.
   double within_bounds(double radius) const {
     return std::clamp(radius, 1e-3 * radius_max_, radius_max_);
   }
@@ -282,7 +281,7 @@ void check_kernels(const Extraction& extraction, Table& table) {
     for (const double share : shares(extraction)) area += share;
     table.compare_near("leaf area", counts.at("leaf_area"), area, 1e-6 * area);
   } else {
-    check_lengths(extraction, table);  // the crown is that of the vertices
+    check_lengths(extraction, table);  // needs the crown of the leaf vertices
   }
   const std::vector<double> densities = isotropic_density(extraction);
   const Band band = check_statistics(extraction, densities, table);

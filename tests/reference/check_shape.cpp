@@ -23,7 +23,7 @@ std::vector<Kernel> used_kernels(const Ply& ply) {
   return kernels;
 }
 
-/// T as the quantile of N over the leaf vertices that `--coverage` asks for.
+/// Checks that T is the quantile of N over the leaf vertices that `--coverage` asks for.
 void check_coverage(const Extraction& extraction, const Count& below, Table& table) {
   const auto& coverage = extraction.parameter("coverage");
   if (coverage.is_null()) return;
@@ -45,7 +45,7 @@ VoxelCounts check_metrics(const Extraction& extraction, const std::vector<Kernel
   const auto& metrics = extraction.report.at("metrics");
   table.compare("inside voxels", metrics.at("inside_voxels"), voxels.inside);
   table.compare("on voxels", metrics.at("on_voxels"), voxels.on);
-  if (!extraction.by_area()) {  // else they are of samples, which the kernels do not tell
+  if (!extraction.by_area()) {  // otherwise they count samples, which are not in the kernels
     const Count off_site = count_below(exact, threshold);
     check_coverage(extraction, off_site, table);
     table.compare("dilated voxels", metrics.at("dilated_voxels"), voxels.dilated);
@@ -59,8 +59,8 @@ VoxelCounts check_metrics(const Extraction& extraction, const std::vector<Kernel
   return voxels;
 }
 
-/// The mesh runs through `on` voxels alone, so its volume lies between that of the inside voxels
-/// and that of the inside and on voxels, but for components dropped as too small.
+/// The mesh only crosses `on` voxels, so its volume lies between that of the inside voxels and that
+/// of the inside and on voxels, except for components dropped as too small.
 void check_volume(const Extraction& extraction, const VoxelCounts& voxels, double volume,
                   Table& table) {
   if (extraction.number("adaptivity") > 0) return;

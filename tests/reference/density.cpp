@@ -64,7 +64,7 @@ void add(const Kernel& kernel, int falloff, const Point& point, Density& density
   }
 }
 
-/// Points cut along x into slices and sorted by y in each, to find those in a kernel's box.
+/// Points cut into slices along x and sorted by y in each, to find those in a kernel's box.
 class SortedPoints {
  public:
   SortedPoints(const std::vector<Point>& points, double slice_width)

@@ -34,7 +34,7 @@ struct Density {
 struct Lattice {
   double voxel_size = 0;
   std::array<long, 3> low{}, count{};
-  std::vector<double> values;  ///< k fastest
+  std::vector<double> values;  ///< k varies fastest
 
   std::size_t index(long i, long j, long k) const {
     return (std::size_t(i - low[0]) * count[1] + (j - low[1])) * count[2] + (k - low[2]);
@@ -42,7 +42,7 @@ struct Lattice {
   double trilinear(const Point& p) const;
 };
 
-/// The lattice over the union of the supports, grown by a cell.
+/// N on the lattice over the union of the supports, grown by a cell.
 Lattice sum_on_lattice(const std::vector<Kernel>& kernels, int falloff, double voxel_size);
 
 /// N and its gradient at each point.

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Kernels, meshes and reports made by hand, in the files that recount reads."""
+"""Hand-made kernels, meshes and reports in the file formats that recount reads."""
 
 import itertools
 import math
@@ -67,7 +67,7 @@ def write_mesh(path, mesh):
 
 
 def count_cells(is_inside, reach):
-    """Inside and on cells of the lattice within `reach` samples of the origin."""
+    """The number of inside and on cells of the lattice within `reach` samples of the origin."""
     samples = {p: is_inside(p) for p in itertools.product(range(-reach, reach + 2), repeat=3)}
     inside = on = 0
     for i, j, k in itertools.product(range(-reach, reach + 1), repeat=3):

@@ -41,7 +41,7 @@ std::size_t count_unused_vertices(const Ply& mesh) {
   return std::size_t(std::count(used.begin(), used.end(), false));
 }
 
-/// For each vertex, one vertex that stands for its component.
+/// For each vertex, the vertex that represents its component.
 std::vector<std::uint32_t> component_of_vertices(const Ply& mesh) {
   std::vector<std::uint32_t> parent(mesh.vertex_count);
   std::iota(parent.begin(), parent.end(), 0u);

@@ -14,7 +14,7 @@ static_assert(std::endian::native == std::endian::little);
 
 struct Property {
   std::string name, type;
-  std::string length_type;  ///< of a list; else empty
+  std::string length_type;  ///< the type of a list's length; empty if not a list
 };
 
 struct Element {

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Extracts a tree with every method and style and has each report recounted by brute force:
-run_recount.py LEAFHULL RECOUNT TREE."""
+"""run_recount.py LEAFHULL RECOUNT TREE extracts the tree with every method and style and recounts each
+report by brute force."""
 
 import pathlib
 import subprocess
@@ -11,7 +11,7 @@ import time
 SKIPPED = 77
 VERTICES = ["--points", "vertices"]
 DRAFT = ["--preset", "draft", *VERTICES]
-# A hollow that is filled cannot be recounted from kernels.
+# A filled hollow cannot be recounted from kernels.
 AREA = ["--preset", "draft", "--points", "area", "--hollows", "keep"]
 CASES = {
     "painterly, standard": ["--preset", "standard", *VERTICES],

@@ -9,14 +9,14 @@
 
 namespace recount {
 
-/// What the report says beside what the recount finds; printed row by row.
+/// Compares the report with the recount and prints both, row by row.
 class Table {
  public:
-  /// The report must lie between `low` and `high`.
+  /// Requires the report to lie between `low` and `high`.
   void compare(const std::string& quantity, double report, double recount, double low, double high);
   void compare(const std::string& quantity, double report, const Count& recount);
   void compare_near(const std::string& quantity, double report, double recount, double tolerance);
-  /// The recount, of something that the report does not hold, must lie between `low` and `high`.
+  /// Requires a recount that the report does not hold to lie between `low` and `high`.
   void require(const std::string& quantity, double recount, double low, double high);
 
   void print() const;

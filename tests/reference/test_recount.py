@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""recount itself, on hand-made kernels whose counts follow from geometry: test_recount.py RECOUNT."""
+"""test_recount.py RECOUNT tests recount on hand-made kernels whose counts follow from geometry."""
 
 import copy
 import json
@@ -37,7 +37,7 @@ class RecountTest(unittest.TestCase):
         return result.stdout
 
     def assert_agrees_exactly(self, *args, **kwargs):
-        """Also where the table allows for rounding."""
+        """The counts agree even where the table allows for rounding."""
         counts = [line for line in self.assert_agrees(*args, **kwargs).splitlines()
                   if line.startswith(("inside", "on voxels", "dilated", "off-site"))]
         self.assertEqual(len(counts), 5)
@@ -45,7 +45,7 @@ class RecountTest(unittest.TestCase):
             self.assertEqual(float(line[34:].split()[2]), 0, line)
 
     def assert_differs(self, quantity, *args, **kwargs):
-        """Exit 1, and the named row, and it alone, is the one that differs."""
+        """Recount exits with 1 and the named row differs. Returns all rows that differ."""
         result = self.run_recount(*args, **kwargs)
         self.assertEqual(result.returncode, 1, result.stdout + result.stderr)
         rows = [line[:34].strip() for line in result.stdout.splitlines() if "DIFFERS" in line]
@@ -121,7 +121,7 @@ class WeightedKernels(RecountTest):
             self.assert_differs("inside voxels", kernels, report)
 
     def test_vertices_and_normals_of_two(self):
-        """Of two kernels the surface between them moves with their weights."""
+        """The surface between two kernels moves with their weights."""
         kernels = [Kernel((x, 0.1, 0.2), (1.5, 1.5, 1.5), density=1.4096, weight=weight)
                    for x, weight in ((0, 1), (0.9, 4))]
         threshold = 0.6
@@ -134,7 +134,7 @@ class WeightedKernels(RecountTest):
 
 
 class SamplesOnTheSurface(RecountTest):
-    """30 samples at distance 3h exactly on N = T may count as inside or not, and nothing else may."""
+    """Only the 30 samples exactly on N = T, at distance 3h, may count as either inside or outside."""
 
     def check(self, is_inside, threshold):
         kernels = [Kernel((0, 0, 0), (1.5, 1.5, 1.5))]
@@ -146,7 +146,7 @@ class SamplesOnTheSurface(RecountTest):
         threshold = (1 - (3 * H / 1.5) ** 2) ** 2
         for limit in (8, 9):
             self.assert_agrees(*self.check(lambda p: sum(i * i for i in p) <= limit, threshold))
-        for limit in (6, 10):  # the samples at distance sqrt 8 and sqrt 10 are no matter of rounding
+        for limit in (6, 10):  # rounding does not reach the samples at distance sqrt 8 and sqrt 10
             self.assert_differs(
                 "dilated voxels", *self.check(lambda p: sum(i * i for i in p) <= limit, threshold))
 
@@ -221,8 +221,8 @@ class OneEllipsoid(RecountTest):
 
 
 class ThreeInARow(RecountTest):
-    """Centres 0.6 R_max apart: N_iso is 1 + 0.64^2 at the ends and 1 + 2 * 0.64^2 in the middle,
-    which is sqrt 2 deviations above the mean, so Eq. (8)'s weight there is sqrt 2 / 2."""
+    """The centres are 0.6 R_max apart. N_iso is 1 + 0.64^2 at the ends and 1 + 2 * 0.64^2 in the
+    middle, sqrt 2 deviations above the mean, so Eq. (8)'s weight there is sqrt 2 / 2."""
 
     R_MAX, LEAF_U, LEAF_V = 1.5, 0.9, 0.6
 

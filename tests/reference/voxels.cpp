@@ -13,8 +13,8 @@ void count(Count& count, bool certain, bool exact, bool possible) {
   count.high += possible;
 }
 
-/// Per cell, whether it holds a leaf vertex: in float64, and whatever the rounding of the vertex to
-/// float32 (a vertex beside a cell's face may lie in either cell).
+/// Whether each cell holds a leaf vertex: exactly in float64, and certainly or possibly after the
+/// vertex is rounded to float32 (a vertex close to a cell's face may lie in either cell).
 struct Held {
   std::vector<bool> certain, exact, possible;
 };

@@ -8,10 +8,10 @@
 
 namespace recount {
 
-/// Values this close to T, relatively, may round to either side in float32.
+/// Values within this relative distance of T may round to either side in float32.
 inline constexpr double kRounding = 1e-5;
 
-/// A count in float64, and the least and the most it can be after float32 rounding.
+/// A count in float64, and its least and greatest values after rounding to float32.
 struct Count {
   std::uint64_t low = 0, exact = 0, high = 0;
 };
@@ -21,8 +21,8 @@ struct VoxelCounts {
   std::uint64_t samples_beside_surface = 0;  ///< corners of `on` voxels that rounding cannot change
 };
 
-/// The lattice's cells by their corners, N >= threshold being inside; `vertices` are the leaf
-/// vertices. SPEC: 6.
+/// Counts the lattice's cells by their corners, which are inside if N >= threshold; `vertices` are
+/// the leaf vertices. SPEC: 6.
 VoxelCounts count_voxels(const Lattice& lattice, const std::vector<Point>& vertices,
                          double threshold);
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// A tileset as Cesium's 3d-tiles-tools and the Khronos glTF validator read it: node
-// check_tileset.mjs, with in the environment
+// Reads a tileset with Cesium's 3d-tiles-tools and the Khronos glTF validator: node
+// check_tileset.mjs, with these variables in the environment:
 //   TILESET    the folder of tileset.json
 //   PACKAGES   the folder whose node_modules hold both
-// Exits with 77 where they are missing.
+// Exits with 77 if they are missing.
 import assert from 'node:assert/strict';
 import { execFile } from 'node:child_process';
 import { mkdtemp, readFile, readdir, rm } from 'node:fs/promises';
@@ -23,14 +23,14 @@ const { BoundingVolumesContainment, TilesetSourceResourceResolver, TilesetSource
   VertexProcessing } = requirePackage('3d-tiles-tools');
 const validator = requirePackage('gltf-validator');
 
-const EPSILON = 1e-9;  // of a half axis: the tools invert the box
+const EPSILON = 1e-9;  // in half axes; the tools invert the box
 
 const folder = resolve(TILESET);
 const tileset = JSON.parse(await readFile(join(folder, 'tileset.json'), 'utf8'));
 const files = (await readdir(join(folder, 'tiles'), { recursive: true }))
   .filter((name) => name.endsWith('.glb')).map((name) => `tiles/${name}`).sort();
 
-/** Calls visit(tile, ancestors, uris, source) for every tile as 3d-tiles-tools traverse them. */
+/** Calls visit(tile, ancestors, uris, source) for every tile, as 3d-tiles-tools traverses them. */
 async function traverse(visit, input = folder) {
   const source = await TilesetSources.createAndOpen(input);
   const resolver = new TilesetSourceResourceResolver('.', source);

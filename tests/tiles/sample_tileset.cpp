@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// sample_tileset FOLDER   writes a tileset of three levels with a ball in every tile: on both sides
-// of the origin, higher towards +x, with a gap in each coarser level, and a ball far from its
-// mesh's origin.
+// sample_tileset FOLDER writes a tileset of three levels with a ball in every tile. The tiles lie
+// on both sides of the origin and higher towards +x; each coarser level has a gap, and one ball is
+// far from its mesh's origin.
 #include <array>
 #include <filesystem>
 #include <fstream>
@@ -17,7 +17,7 @@
 namespace leafhull::test {
 namespace {
 
-constexpr double kEdge = 16;  // of a tile of level 0
+constexpr double kEdge = 16;  // the edge of a tile of level 0
 constexpr std::array kErrors{0.25, 0.75, 2.0};
 constexpr std::array kRings{24, 12, 6};
 
@@ -27,7 +27,7 @@ std::set<TileId> tile_ids() {
     for (int z = -2; z < 6; ++z) {
       TileId id{0, {x, x > 1 ? 1 : 0, z}};
       ids.insert(id);
-      if (x == -3) continue;  // no coarser surface there
+      if (x == -3) continue;  // the coarser levels have no surface there
       id = id.parent();
       ids.insert(id);
       if (z < 4) ids.insert(id.parent());
@@ -39,7 +39,7 @@ std::set<TileId> tile_ids() {
 Mesh ball(const TileId& id) {
   const double edge = kEdge * (1 << id.level);
   const Vec3d centre = (to_vec3d(id.at) + Vec3d{0.5, 0.5, 0.5}) * edge;
-  Mesh mesh = sphere(kRings[static_cast<std::size_t>(id.level)]);  // of radius 2
+  Mesh mesh = sphere(kRings[static_cast<std::size_t>(id.level)]);  // the radius is 2
   if (id.at.z > 0) mesh.origin = {0, 0, edge * id.at.z};
   for (Vec3f& position : mesh.positions) {
     position = Vec3f(Vec3d(position) * (0.23 * edge) + centre - mesh.origin);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Serves a page that draws a tileset: its script bundled by esbuild, the tileset under /forest/.
+// Serves a page that draws a tileset. esbuild bundles its script; the tileset is under /forest/.
 import { readFile } from 'node:fs/promises';
 import { createServer } from 'node:http';
 import { createRequire } from 'node:module';
@@ -26,7 +26,7 @@ async function bundle(web, packages) {
   return script.text;
 }
 
-/** @param web, packages folders whose node_modules hold esbuild, and the renderer with three.js */
+/** The node_modules of `web` hold esbuild, those of `packages` the renderer and three.js. */
 export async function serve({ folder, web, packages }) {
   const own = {
     '/': [PAGE, 'text/html'],

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// A tileset in a real browser, drawn by 3d-tiles-renderer: node stream.mjs, with in the environment,
-// all paths absolute,
+// Draws a tileset with 3d-tiles-renderer in a real browser: node stream.mjs, with these variables in
+// the environment; all paths are absolute:
 //   TILESET   the folder of tileset.json
 //   LEVELS    how many levels of abstraction it has
 //   CHROMIUM
 //   WEB       the folder whose node_modules hold esbuild
 //   PACKAGES  the folder whose node_modules hold playwright-core, 3d-tiles-renderer and three.js
 //   PICTURES  where far.png, middle.png and near.png go
-// Exits with 77 where Chromium or packages are missing.
+// Exits with 77 if Chromium or packages are missing.
 import assert from 'node:assert/strict';
 import { mkdir, readFile } from 'node:fs/promises';
 import { join } from 'node:path';
@@ -23,7 +23,7 @@ const { launch } = await import('../page/browser.mjs');
 const { serve } = await import('./server.mjs');
 
 const STEPS = 16;
-// What the renderer says of every tileset of 1.1.
+// The renderer prints this for every tileset of version 1.1.
 const NOTICE = /^TilesRenderer: tiles versions at 1.1 or higher have limited support/;
 const levels = Number(LEVELS);
 const tileset = JSON.parse(await readFile(join(TILESET, 'tileset.json'), 'utf8'));
@@ -39,7 +39,7 @@ const byUri = new Map(tiles.filter(({ content }) => content).map((tile) => [tile
 const levelOf = (uri) => Number(uri.match(/^tiles\/(\d+)\//)[1]);
 const errors = new Map([...byUri].map(([uri, { geometricError }]) => [levelOf(uri), geometricError]));
 
-/** A tile's box as the viewer's axes have it: 3D Tiles' (x, y, z) is (x, z, -y) with y up. */
+/** A tile's box in the viewer's axes: 3D Tiles' (x, y, z) is (x, z, -y) with y up. */
 function turnedBox({ boundingVolume: { box: [x, y, z, ...axes] } }) {
   const half = [0, 1, 2].map((i) => Math.abs(axes[i]) + Math.abs(axes[3 + i]) + Math.abs(axes[6 + i]));
   return {
@@ -48,7 +48,7 @@ function turnedBox({ boundingVolume: { box: [x, y, z, ...axes] } }) {
   };
 }
 
-/** The bounds that a GLB of one node states. */
+/** The bounds that are stated in a GLB with one node. */
 async function statedBox(uri) {
   const bytes = await readFile(join(TILESET, uri));
   const gltf = JSON.parse(bytes.subarray(20, 20 + bytes.readUInt32LE(12)).toString());
@@ -80,7 +80,7 @@ after(async () => {
   server?.close();
 });
 
-/** Walks towards the tile of level 0 that is nearest to the middle. */
+/** Moves the camera towards the tile of level 0 that is nearest to the middle. */
 async function walk() {
   const distanceToCentre = (tile) => {
     const { low, high } = turnedBox(tile);

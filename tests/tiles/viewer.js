@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Draws /forest/tileset.json; `viewer` is what a test asks. Levels have colours of their own.
+// Draws /forest/tileset.json, each level in its own colour; tests call `viewer`.
 import {
   Box3, Color, DirectionalLight, HemisphereLight, PerspectiveCamera, Scene, Sphere, Vector3, WebGLRenderer,
 } from 'three';
@@ -8,7 +8,7 @@ import { TilesetValidationPlugin } from '3d-tiles-renderer/src/three/plugins/Til
 
 const COLORS = ['#4f7a38', '#c9a227', '#b4513a', '#6b4fa0', '#3a78b4', '#888888'];
 const IDLE_FRAMES = 10;
-const FROM = new Vector3(0.45, 0.5, 1).normalize();  // where the camera stands, seen from its aim
+const FROM = new Vector3(0.45, 0.5, 1).normalize();  // the direction from the aim to the camera
 
 const renderer = new WebGLRenderer({ antialias: true });
 renderer.setSize(innerWidth, innerHeight);
@@ -21,10 +21,10 @@ scene.add(sun, new HemisphereLight('#ffffff', '#777766', 1.5));
 const camera = new PerspectiveCamera(60, innerWidth / innerHeight);
 
 const tiles = new TilesRenderer('/forest/tileset.json');
-tiles.registerPlugin(new TilesetValidationPlugin());  // warns of vertices outside their tiles' boxes
+tiles.registerPlugin(new TilesetValidationPlugin());  // warns if vertices lie outside their tile's box
 tiles.setCamera(camera);
 tiles.setResolutionFromRenderer(camera, renderer);
-tiles.group.rotation.x = -Math.PI / 2;  // 3D Tiles has z up, three.js y
+tiles.group.rotation.x = -Math.PI / 2;  // z is up in 3D Tiles, y in three.js
 scene.add(tiles.group);
 
 const levelOf = (tile) => Number(tile.content.uri.match(/tiles\/(\d+)\//)[1]);
@@ -44,7 +44,7 @@ const frame = () => new Promise(requestAnimationFrame);
 const shown = () => [...tiles.visibleTiles].filter((tile) => tile.content)
   .map((tile) => tile.content.uri).sort();
 
-/** Draws until nothing is loaded any more and the same tiles stay. */
+/** Draws until nothing more is loaded and the tiles no longer change. */
 async function settle() {
   let before = '';
   for (let idle = 0; idle < IDLE_FRAMES;) {
@@ -83,7 +83,7 @@ function isBelowVisible(tile) {
 }
 
 window.viewer = {
-  /** The sphere around all. */
+  /** The sphere around everything. */
   async bounds() {
     await settle();
     const sphere = new Sphere();
@@ -96,7 +96,7 @@ window.viewer = {
   reach: (geometricError) => geometricError * renderer.domElement.height /
     (2 * Math.tan(camera.fov / 360 * Math.PI) * tiles.errorTarget),
 
-  /** What is drawn of the tileset, looking at `aim` from so far away. */
+  /** What is drawn of the tileset when the camera looks at `aim` from this distance. */
   async look(aim, distance) {
     const target = new Vector3(...aim);
     camera.position.copy(target).addScaledVector(FROM, distance);

@@ -33,7 +33,7 @@ int count(const std::string& text, const std::string& pattern) {
       std::distance(std::sregex_iterator(text.begin(), text.end(), regex), std::sregex_iterator()));
 }
 
-/// Without its tags, as a reader sees it: <text> alone.
+/// The text that a reader sees: the <text> elements without their tags.
 std::string visible(const std::string& svg) {
   std::string all;
   const std::regex element("<text>(.*?)</text>");
@@ -43,7 +43,7 @@ std::string visible(const std::string& svg) {
   return all;
 }
 
-/// Whether tags nest and nothing but entities follows an ampersand.
+/// Whether tags nest and every ampersand begins an entity.
 bool is_well_formed(const std::string& svg) {
   static const std::regex token(R"(<\?[^>]*\?>|<!--[^]*?-->|<(/?)([A-Za-z:]+)[^<>]*?(/?)>|[<&])");
   static const std::regex entity("&(amp|lt|gt|quot|apos|#[0-9]+|#x[0-9a-fA-F]+);");
@@ -103,7 +103,7 @@ TEST_F(ChartSvg, SetsSubscripts) {
   EXPECT_NE(visible(file).find("Rmax\n"), std::string::npos) << visible(file);
 }
 
-/// The pen's strokes of the one line's path; a gap lifts it.
+/// The number of strokes in the path of the line `name`; a gap begins a new stroke.
 int strokes(const std::string& file, const std::string& name) {
   const std::size_t group = file.find("<title>" + name + "</title>");
   const std::size_t path = file.find(" d='", group);
@@ -143,7 +143,7 @@ TEST_F(ChartSvg, OneNameLooksTheSameInAllPanels) {
   chart.panels.push_back({"off-site vertices", {{"b", {1}, {3}}}});
   const std::string file = svg(chart);
   EXPECT_EQ(count(visible(file), "\nb\n"), 1);
-  // b's marker: in the legend and in both panels.
+  // b's marker is in the legend and in both panels.
   EXPECT_EQ(count(file, "#gpPt4' tran"), 3);
 }
 

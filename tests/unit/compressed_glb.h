@@ -12,7 +12,7 @@
 
 namespace leafhull::test {
 
-/// A mesh of one primitive in KHR_draco_mesh_compression, its accessors without data.
+/// Adds a mesh with one primitive in KHR_draco_mesh_compression, whose accessors have no data.
 inline int add_draco_mesh(GlbBuilder& builder, const std::string& name,
                           const GlbPrimitive& primitive) {
   draco::TriangleSoupMeshBuilder soup;
@@ -58,8 +58,8 @@ inline int add_draco_mesh(GlbBuilder& builder, const std::string& name,
   return builder.add("meshes", {{"name", name}, {"primitives", {entry}}});
 }
 
-/// Compresses the positions and indices of a mesh that is there already, the way gltfpack does: the
-/// views keep a fallback buffer that holds nothing.
+/// Compresses the positions and indices of an existing mesh as gltfpack does: the views keep an
+/// empty fallback buffer.
 inline void compress_with_meshopt(GlbBuilder& builder, const GlbPrimitive& primitive) {
   const auto compress = [&](int view, Bytes data, std::size_t count, std::size_t stride,
                             const char* mode) {

@@ -42,7 +42,7 @@ TEST(LatticeKernel, HasTheXiOfItsAxes) {
       for (int i = 0; i < 20; ++i) {
         const Vec3d d = Vec3d(unit(random), unit(random), unit(random)) * 1.5;
         const double xi = reference::xi(kernel, kernel.centre + d);
-        // Lengths in units of the smallest radius carry the float's rounding.
+        // The float's rounding scales with lengths in units of the smallest radius.
         EXPECT_NEAR(std::sqrt(square_of(local, lattice.local(kernel.centre + d))), std::sqrt(xi),
                     1e-6 * 1.5 / static_cast<double>(thinnest) + 1e-6);
       }
@@ -95,20 +95,20 @@ TEST(OctantLists, OfASphereAndEightCubes) {
     const std::vector<std::uint32_t> ranks{0};
     OctantLists octants;
     octants.narrow(local, ranks, {{}, {3, 1, 1}, 1, 1}, 3, 1);
-    // Octant 0 is the cube from (1, -1, -1) to (3, 1, 1): 1 / 9 <= xi <= 11 / 9.
+    // Octant 0 is the cube from (1, -1, -1) to (3, 1, 1), where 1 / 9 <= xi <= 11 / 9.
     EXPECT_EQ(octants.list(0).size(), 1u);
     const double share = octants.high(0) / static_cast<double>(weight);
     EXPECT_NEAR(share, 1 - 1.0 / 9, 1e-3);
     EXPECT_GE(share, 1 - 1.0 / 9);
     EXPECT_EQ(octants.low(0), 0);
-    // Octant 7 is the cube from (3, 1, 1) to (5, 3, 3): beyond the sphere.
+    // Octant 7 is the cube from (3, 1, 1) to (5, 3, 3), beyond the sphere.
     EXPECT_TRUE(octants.list(7).empty());
   }
 }
 
 class Weights : public testing::TestWithParam<int> {
  protected:
-  /// Of random kernels: from 10^-decades to 10^decades.
+  /// Random kernels have weights from 10^-decades to 10^decades.
   int decades() const { return GetParam(); }
   std::vector<Kernel> kernels(std::size_t count, double extent, float smallest = 0.2f,
                               Vec3d corner = {}) const {
@@ -295,7 +295,7 @@ TEST(Band, SeveralThresholdsAreDecidedEachAsAlone) {
     const Band alone = band_of(set, {{t}});
     evaluated += alone.bricks.size();
     for (const auto& [origin, list] : alone.bricks) EXPECT_TRUE(band.bricks.count(origin));
-    // What is not evaluated any more is proven as before, in blocks of any size.
+    // Samples that are not evaluated are proven as for this threshold alone, in blocks of any size.
     std::mt19937 random(5);
     std::uniform_int_distribution<int> place(-70, 140);
     for (int i = 0; i < 3000; ++i) {

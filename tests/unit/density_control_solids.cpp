@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The threshold where leaves are the surface of crowns that are filled.
+// The threshold of trees whose leaves are the surfaces of filled crowns.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -11,7 +11,7 @@
 namespace leafhull {
 namespace {
 
-/// About one density: from 0.95 to 1.05 of it.
+/// `count` densities from 0.95 to 1.05 times `middle`.
 std::vector<WeightedDensity> even(double middle, int count, bool in_solid,
                                   std::uint64_t weight = 1) {
   std::vector<WeightedDensity> all;

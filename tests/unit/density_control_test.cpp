@@ -11,14 +11,14 @@
 namespace leafhull {
 namespace {
 
-/// At a vertex, or with an area.
+/// A point for a leaf vertex or, with an area, for leaf area.
 LeafPoint leaf(float major, float minor, double area = 0) {
   return {{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, major, minor, area};
 }
 
 const Box kCrown{{-1, -1, -1}, {1, 1, 1}};
 
-/// At vertices, with the paper's band.
+/// Options for leaf vertices, with the paper's band.
 ControlOptions at_vertices() {
   return {.low = {0, {}}, .high = {2, {}}, .points = PointSource::vertices};
 }
@@ -128,7 +128,7 @@ TEST(Control, LeafPointsCountByTheirArea) {
   const DensityStatistics s = density_statistics(leaves, std::vector<float>{1, 5}, kCrown, options);
   EXPECT_DOUBLE_EQ(s.mean, 2);
   EXPECT_DOUBLE_EQ(s.variance, 3);
-  // A ripple is no spread.
+  // A ripple does not count as spread.
   const DensityStatistics even =
       density_statistics(leaves, std::vector<float>{1.01f, 0.97f}, kCrown, options);
   EXPECT_NEAR(even.p2, 1.3 * even.mean, 1e-9);
@@ -189,7 +189,7 @@ TEST(Control, StraysCountForNothing) {
 }
 
 TEST(Control, CoverageKeepsClearOfSheets) {
-  std::vector<WeightedDensity> closed;  // one sheet, N = 1 but for its ripple
+  std::vector<WeightedDensity> closed;  // one sheet: N = 1 except for a ripple
   for (int i = 0; i < 100; ++i) closed.push_back({0.98f + 0.0004f * static_cast<float>(i)});
   EXPECT_NEAR(clear_of_sheets(closed, 0.985, 0.92), 0.6, 0.01);
   std::vector<WeightedDensity> wide;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The lists of kernels near points.
+// Lists of the kernels near points.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The density in float64, straight from the equations, and kernel sets to try it on.
+// The density in float64, straight from the equations, and kernels to test it with.
 #pragma once
 
 #include <cmath>
@@ -33,7 +33,7 @@ inline double density(std::span<const Kernel> kernels, Vec3d p, int k) {
   return sum;
 }
 
-/// What rounding is a share of at p: the weights of the kernels that reach it, or nearly.
+/// The sum of the weights of kernels that reach p or nearly do; rounding is a share of it.
 inline double weight_near(std::span<const Kernel> kernels, Vec3d p) {
   double sum = 0;
   for (const Kernel& kernel : kernels) {
@@ -46,8 +46,7 @@ inline Kernel sphere(Vec3d centre, float radius, float weight = 1) {
   return {centre, {0, 0, 1}, {1, 0, 0}, radius, radius, radius, weight};
 }
 
-/// `count` kernels of random frames in a cube of edge `extent` at `corner`, radii from `smallest`
-/// to 1.
+/// `count` kernels with random frames in a cube of edge `extent` and radii from `smallest` to 1.
 inline std::vector<Kernel> random_kernels(std::size_t count, double extent, float smallest = 0.2f,
                                           Vec3d corner = {}) {
   std::mt19937 random(7);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The OpenCL kernels against the float64 reference, both variants, on the default CPU device.
+// Compares both variants of the OpenCL kernels with the float64 reference, on the default CPU
+// device.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -78,7 +79,7 @@ TEST_P(EvaluatorTest, WeightedSamplesAgreeWithFloat64) {
   }
 }
 
-/// N at `points`, voxels from the anchor.
+/// N at `points`, which are in voxels from the anchor.
 std::vector<float> density_at(Evaluator& evaluator, const KernelSet& set,
                               std::span<const Vec3d> points) {
   std::vector<float> density(points.size(), -1);
@@ -128,7 +129,7 @@ TEST_P(EvaluatorTest, PointsAgreeWithFloat64) {
 }
 
 TEST_P(EvaluatorTest, OnePointOfOneKernelByHand) {
-  // xi = (0.5 / 1)^2 = 0.25 at (0.5, 0, 0) of a unit sphere: D = w 0.75^k.
+  // At (0.5, 0, 0) in a unit sphere xi = 0.5^2 = 0.25, so D = w 0.75^k.
   for (const float weight : {1.0f, 1e-6f, 8.0f, 1e6f}) {
     const std::vector<Kernel> kernels{sphere({0, 0, 0}, 1, weight)};
     const Lattice lattice = Lattice::near({0, 0, 0}, 0.25);
@@ -167,7 +168,7 @@ TEST_P(EvaluatorTest, APointDoesNotDependOnItsCompany) {
 }
 
 TEST_P(EvaluatorTest, SnapsOntoAnEllipsoid) {
-  // One kernel of radii 2, 1, 0.5: N = T where xi = 1 - (T / w)^(1/k).
+  // For one kernel with radii 2, 1, 0.5, N = T where xi = 1 - (T / w)^(1/k).
   for (const auto& [weight, t] : {std::pair(1.0f, 0.4), {2.0f, 0.4}, {1e-6f, 2e-7}, {1e6f, 5e5}}) {
     const std::vector<Kernel> kernels{{{0.3, 0.2, 0.1}, {0, 0, 1}, {1, 0, 0}, 2, 1, 0.5f, weight}};
     const Lattice lattice = Lattice::near({0, 0, 0}, 0.1);
@@ -199,8 +200,8 @@ TEST_P(EvaluatorTest, SnapsOntoAnEllipsoid) {
   }
 }
 
-// Newton's steps go straight to a sphere. What they do not reach is looked for towards a corner of
-// the cell, elsewhere.
+// Newton's steps go straight to a sphere. If they fail, the search goes towards a corner of the
+// cell and ends elsewhere.
 TEST_P(EvaluatorTest, ThreeStepsGoStraightToASphere) {
   const std::vector<Kernel> kernels{sphere({0.3, 0.2, 0.1}, 2)};
   const double t = 0.4, radius = 2 * std::sqrt(1 - std::pow(t, 1.0 / falloff()));
@@ -227,7 +228,7 @@ TEST_P(EvaluatorTest, ThreeStepsGoStraightToASphere) {
 }
 
 TEST_P(EvaluatorTest, SnapsWhereNewtonHasNoWay) {
-  // From the far corner of the cell, where N and its gradient are zero: only the corners know.
+  // At the far corner of the cell N and its gradient are zero; only the other corners show a way.
   const std::vector<Kernel> kernels{sphere({0, 0, 0}, 0.8f)};
   const double t = 0.3;
   const Lattice lattice = Lattice::near({0, 0, 0}, 1);
@@ -262,7 +263,8 @@ TEST(Device, VariantsAgreeToRounding) {
 }
 
 TEST(Device, ThinKernelsLoseNoSamples) {
-  // Radii far below a voxel: the sample at the centre must see its kernel, its neighbours nothing.
+  // The radii are far below a voxel: the sample at the centre sees the kernel, its neighbours do
+  // not.
   std::vector<Kernel> kernels{{{1.5, 2.5, 3.5}, {0, 0, 1}, {1, 0, 0}, 0.01f, 0.01f, 0.01f}};
   const Lattice lattice = Lattice::near({0, 0, 0}, 0.5);
   const KernelSet set(kernels, reference::hash_of(kernels), lattice, 2);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rays against N = T: the OpenCL kernels against the float64 reference, both variants.
+// Rays against N = T: compares both variants of the OpenCL kernels with the float64 reference.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -24,7 +24,7 @@ using test::device;
 
 constexpr double kThreshold = 0.5;
 
-/// Kernels, their field on a lattice and the rays' side of it.
+/// Kernels, their field on a lattice and the grid that rays walk.
 struct Subject {
   std::vector<Kernel> kernels;
   Lattice lattice;
@@ -57,7 +57,7 @@ struct Subject {
   }
   RayCaster sampled(Device& device) const { return RayCaster(device, *grid, kThreshold); }
 
-  /// N - T at a place in voxels.
+  /// N - T at a point in voxels.
   double excess(Vec3d p) const {
     return reference::density(kernels, lattice.world(p), falloff) - kThreshold;
   }
@@ -87,8 +87,8 @@ INSTANTIATE_TEST_SUITE_P(Variants, RaysTest,
                          test::name_of);
 
 TEST_P(RaysTest, MeetASphereWhereItIs) {
-  // One kernel: N = w (1 - r^2)^k is 0.5 at a radius by hand. A heavy one rises in far less than
-  // the 0.02 voxels in which a crossing is known.
+  // One kernel: N = w (1 - r^2)^k is 0.5 at a radius computed by hand. A heavy kernel rises in far
+  // less than the 0.02 voxels to which a crossing is known.
   for (const auto& [weight, near] :
        {std::pair(1.0f, 0.002), {0.9f, 0.002}, {3.0f, 0.002}, {1e3f, 0.021}, {1e6f, 0.021}}) {
     const double radius =
@@ -108,7 +108,7 @@ TEST_P(RaysTest, MeetASphereWhereItIs) {
     EXPECT_NEAR(hits[3].distance, 2000 - radius, near);
     EXPECT_TRUE(std::isinf(hits[4].distance));
     EXPECT_NEAR(hits[5].distance, radius, near);  // from inside
-    // Where the surface is as near to the end of the support as that, there may be no gradient.
+    // If the surface is that close to the end of the support, there may be no gradient.
     if (10 - radius < 0.05) continue;
     const Vec3f n = normalized(-hits[1].gradient);
     EXPECT_NEAR(n.y, 3 / radius, 1e-3);
@@ -129,7 +129,7 @@ TEST_P(RaysTest, StopAtTheFirstCrossingOfTheExactDensity) {
         return Vec3d(rays[i].origin) + Vec3d(rays[i].direction) * t;
       };
       const double end = std::isinf(hits[i].distance) ? 400 : static_cast<double>(hits[i].distance);
-      // Nothing is passed over that is a voxel thick.
+      // The ray has passed nothing that is a voxel thick.
       int run = 0;
       for (double t = 100; t < end - 0.05; t += 0.25) {
         run = subject.excess(at(t)) > 0.01 ? run + 1 : 0;
@@ -137,7 +137,7 @@ TEST_P(RaysTest, StopAtTheFirstCrossingOfTheExactDensity) {
       }
       if (std::isinf(hits[i].distance)) continue;
       ++met;
-      // Within 0.02 voxels along the ray N passes T.
+      // N passes T within 0.02 voxels along the ray.
       EXPECT_LT(subject.excess(at(end - 0.02)), 1e-4) << i;
       EXPECT_GT(subject.excess(at(end + 0.02)), -1e-4) << i;
       const Vec3d p = at(end);
@@ -192,7 +192,7 @@ TEST(Rays, FromSamplesAgreeWithThoseFromKernels) {
 
 TEST(Rays, PassThroughWhatIsNotDrawn) {
   Device& cpu = device("vector");
-  // Two balls in a row; the first is not drawn.
+  // Two balls in a row, of which the first is not drawn.
   Subject subject({sphere({0, 0, 0}, 10), sphere({40, 0, 0}, 10)}, 1, cpu);
   const double radius = 10 * std::sqrt(1 - std::sqrt(kThreshold));
   std::vector<Coord> drawn, others;
@@ -223,10 +223,10 @@ TEST(Rays, PassThroughWhatIsNotDrawn) {
 
 TEST(Rays, AreBlockedByWhatLiesAboveT) {
   Device& cpu = device("vector");
-  // N is 1 in the middle: twice T there.
+  // N is 1 in the middle, twice T.
   const Subject subject({sphere({0, 0, 0}, 10)}, 1, cpu);
   const auto at = [&](Vec3d p) { return VoxelRay{Vec3f(subject.lattice.local(p)), {1, 0, 0}}; };
-  const double y = 4;  // beside the middle N is (1 - 0.16)^2 at most
+  const double y = 4;  // along this ray N is at most (1 - 0.16)^2
   const VoxelRay rays[] = {at({-30, 0, 0}), at({-30, y, 0}), at({-30, 0, 6}), at({10, 0, 0})};
   std::vector<float> blocked(4);
   subject.exact(cpu).blocked(rays, kThreshold, 100, blocked);
@@ -256,10 +256,10 @@ TEST(Rays, ToTheLightComeFromAsFarAsTheyLike) {
 
 TEST(Rays, EndInACrownOfAnyLength) {
   Device& cpu = device("vector");
-  // A step over the edge of a block is lost in a float of 100,000 voxels.
+  // At 100,000 voxels a float cannot hold the small step over the edge of a block.
   const double far = 1e5, radius = 10 * std::sqrt(1 - std::sqrt(kThreshold));
   const Subject subject({sphere({0, 0, 0}, 10), sphere({far, 0, 0}, 10)}, 1, cpu);
-  // Downwards a ray on the edge of a block is still in the one that it leaves.
+  // A ray towards -x on the edge of a block is still in the block that it leaves.
   const auto at = [&](Vec3d p) { return VoxelRay{Vec3f(subject.lattice.local(p)), {-1, 0, 0}}; };
   const VoxelRay rays[] = {at({far - 50, 0, 0}), at({far - 50, 20, 0})};
   std::vector<VoxelHit> hits(2);
@@ -274,7 +274,7 @@ TEST(Rays, EndInACrownOfAnyLength) {
 
 TEST(Rays, WhatIsNotDrawnCastsNoShadow) {
   Device& cpu = device("vector");
-  // So large a ball that bricks in its middle are proven inside.
+  // The ball is so large that bricks in its middle are proven inside.
   Subject subject({sphere({0, 0, 0}, 120), sphere({300, 0, 0}, 10)}, 1, cpu);
   ASSERT_FALSE(subject.field.inside().empty());
   const VoxelRay ray{Vec3f(subject.lattice.local({-200, 0, 0})), {1, 0, 0}};

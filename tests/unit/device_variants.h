@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests of both variants of the kernels, for every falloff.
+// Runs tests on both variants of the kernels, for every falloff.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Small FBX files, as text and binary.
+// Builds small FBX files, as text and binary.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace leafhull::test {
 
-/// A record of FBX: "Name: values { children }".
+/// An FBX record: "Name: values { children }".
 struct FbxRecord {
   using Value = std::variant<std::int32_t, std::int64_t, double, std::string, std::vector<double>,
                              std::vector<std::int32_t>>;
@@ -25,7 +25,7 @@ struct FbxRecord {
   std::vector<FbxRecord> children;
 };
 
-/// P: "Name", "type", "", "A", numbers.
+/// The record P: "Name", "type", "", "A", numbers.
 inline FbxRecord property(const std::string& name, const std::string& type,
                           std::vector<double> numbers) {
   FbxRecord record("P", {name, type, std::string(), std::string("A")});
@@ -43,11 +43,11 @@ inline FbxRecord properties(std::vector<FbxRecord> list) {
   return {"Properties70", {}, std::move(list)};
 }
 
-/// What a test puts into a file.
+/// The content of a file.
 struct FbxBuilder {
   std::vector<FbxRecord> settings, objects, connections;
 
-  /// "Geometry", "Mesh", ... under a name; binary files write "name\0\1Class".
+  /// Adds "Geometry", "Mesh", ... under a name; binary files write "name\0\1Class".
   FbxRecord& object(std::int64_t id, const std::string& kind, const std::string& name,
                     const std::string& type, std::vector<FbxRecord> children = {}) {
     return objects.emplace_back(kind, std::vector<FbxRecord::Value>{id, kind + "::" + name, type},

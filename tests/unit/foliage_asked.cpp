@@ -16,7 +16,7 @@ using test::with_ellipse;
 using test::with_globs;
 using test::with_scale;
 
-/// A tree of trunk, twig and crown, with the crown's names given.
+/// A tree of trunk, twig and crown; the crown has the given names.
 TreeModel tree_with(const std::string& material, const std::string& mesh, const std::string& node,
                     AlphaMode mode = AlphaMode::opaque) {
   TreeModel tree = test::tree_of({card(1, 1), card(2, 2), card(4, 4)});
@@ -94,10 +94,10 @@ TEST(Asked, PathsNameWhatHangsFromANode) {
   };
   EXPECT_EQ(last("LOD0/Leaves"), std::pair(true, false));
   EXPECT_EQ(last("lod1/leaves"), std::pair(false, true));
-  EXPECT_EQ(last("LOD1/Leaf"), std::pair(false, true));  // a material
+  EXPECT_EQ(last("LOD1/Leaf"), std::pair(false, true));  // Leaf is a material
   EXPECT_EQ(last("LOD1/*"), std::pair(false, true));
   EXPECT_EQ(last("Tree/LOD1/Leaves"), std::pair(false, true));
-  EXPECT_EQ(last("Tree/Leaves"), std::pair(true, false));  // of two levels the finer
+  EXPECT_EQ(last("Tree/Leaves"), std::pair(true, false));  // the finer of two levels
   EXPECT_EQ(last("Bush/Leaves"), std::pair(false, false));
   EXPECT_EQ(last("Leaves/LOD1"), std::pair(false, false));
 }

@@ -14,14 +14,14 @@ using namespace test;
 
 const Material kBare{};
 
-/// Which triangles of a tree of one primitive are taken.
+/// Which triangles of a tree with one primitive are taken as leaves.
 std::vector<bool> taken_triangles(const TreeModel& tree) {
   const LeafChoice choice = choose_leaves(tree, {});
   if (!choice.triangles[0].empty()) return choice.triangles[0];
   return std::vector<bool>(tree.primitives[0].triangles.size(), choice.instances[0]);
 }
 
-/// The first `first` of them no leaves, the rest leaves.
+/// `count` values: false for the first `first`, true for the rest.
 std::vector<bool> last_ones(std::size_t first, std::size_t count) {
   std::vector<bool> triangles(count);
   std::fill(triangles.begin() + static_cast<std::ptrdiff_t>(first), triangles.end(), true);
@@ -55,14 +55,14 @@ TEST(Choice, ANameThatAllShareTellsNothing) {
   const TreeModel tree = model_of({{trunk(), painted("mat1", kBrown), "tree_with_leaves"},
                                    {crown(), painted("mat2", kGreen), "tree_with_leaves"}});
   EXPECT_EQ(taken(tree), kSecond);
-  // Grey boards, which the name alone would make leaves.
+  // By name alone the grey boards would be leaves.
   EXPECT_EQ(taken(model_of({{cards({0, 1, 0}, 1), painted("mat1", {0.2f, 0.2f, 0.2f}), "leaves"},
                             {crown(), painted("mat2", kGreen), "leaves"}})),
             kSecond);
 }
 
 TEST(Choice, HolesDecideWhereTheTrianglesUseThem) {
-  // The left half of the image is whole, the right one a leaf.
+  // The left half of the image is opaque, the right half shows a leaf.
   const Image image = alpha_image(64, [](double u, double v) {
     return u < 0.5 ? 255 : opaque_inside(0.75, 0.5, 0.2, 0.4)(u, v);
   });
@@ -104,7 +104,7 @@ TEST(Choice, ColoursDecideBetweenNamesThatSayNothing) {
   EXPECT_EQ(
       taken(model_of({{trunk(), painted("mat1", kBrown)}, {crown(), painted("mat2", kGreen)}})),
       kSecond);
-  // Autumn, and a birch's bark.
+  // An autumn tree with a birch's bark.
   EXPECT_EQ(taken(model_of({{trunk(), painted("mat1", {0.6f, 0.6f, 0.55f})},
                             {crown(), painted("mat2", {0.7f, 0.35f, 0.02f})}})),
             kSecond);
@@ -140,7 +140,7 @@ TEST(Choice, GroundOfTheCrownsColourIsNoCrown) {
 }
 
 TEST(Choice, VertexColoursTellOnePieceByTriangle) {
-  // A trunk that runs into its crown, all of one piece.
+  // A trunk that runs into its crown in one piece.
   Primitive mesh = ball({0, 4, 0}, 1.5f);
   mesh.colors.clear();
   for (const Vec3f p : mesh.positions) mesh.colors.push_back(p.y < 3 ? kBrown : kGreen);
@@ -180,7 +180,7 @@ TEST(Choice, GrassIsPassedOverWhereThereIsATree) {
   EXPECT_PRED2(contains, choose_leaves(tree, {}).told, "Grass (undergrowth)");
   tree.instances.erase(tree.instances.begin());
   EXPECT_EQ(taken(tree), (std::vector<bool>{true, false}));
-  // Without a name, by where it lies.
+  // Without names, the undergrowth shows by its place.
   tree = model_of({{trunk(), painted("a", kBrown)},
                    {crown(), painted("b", kGreen)},
                    {cards({0, 0.1f, 0}, 0.1f), painted("c", kGreen)}});
@@ -238,7 +238,7 @@ TEST(Choice, ABillboardStandsForATree) {
 }
 
 TEST(Choice, ADoubtfulOneSaysSoAndNamesTheSecond) {
-  // Two crowns of stone, one of them a little likelier.
+  // Both are as grey as stone, and one is a little likelier.
   const TreeModel tree = model_of(
       {{trunk(), painted("a", {0.2f, 0.2f, 0.2f})}, {crown(), painted("b", {0.2f, 0.2f, 0.2f})}});
   const LeafChoice choice = choose_leaves(tree, {});

@@ -13,7 +13,7 @@ using namespace test;
 constexpr Vec3f kRed{0.5f, 0.04f, 0.02f};
 constexpr double kMass = 0.4;
 
-/// Two balls of cards side by side, as one primitive.
+/// Two balls of cards side by side in one primitive.
 TreeModel pair_of(Vec3f left, Vec3f right) {
   return model_of(
       {{joined(coloured(cards({-2, 0, 0}, 1), left), coloured(cards({2, 0, 0}, 1), right)),
@@ -33,7 +33,7 @@ TEST(CrownColours, KeepTheirPlaces) {
   ASSERT_TRUE(colours);
   expect_near(colours->at({-3, 0, 0}), kRed, 1e-3f);
   expect_near(colours->at({3, 0, 0}), kGreen, 1e-3f);
-  expect_near(colours->at({-2, 1.2, 0}), kRed, 1e-3f);  // above the leaves, as a surface is
+  expect_near(colours->at({-2, 1.2, 0}), kRed, 1e-3f);  // above the leaves, like a surface
   expect_near(colours->at({100, 0, 0}), (kRed + kGreen) / 2, 0.02f);
 }
 
@@ -82,7 +82,7 @@ TEST(CrownColours, ThatAreMixedLeafByLeafAreOne) {
 
 TEST(CrownColours, OfALargeTriangleLieAllOverIt) {
   TreeModel tree = pair_of(kRed, kGreen);
-  // A sheet without vertices near its middle.
+  // The sheet has no vertices near its middle.
   Primitive sheet = coloured(ground(3, 2.2f), kRed);
   sheet.material = 0;
   tree.primitives.push_back(sheet);

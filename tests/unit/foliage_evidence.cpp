@@ -12,9 +12,9 @@ double of(std::uint8_t r, std::uint8_t g, std::uint8_t b) {
 }
 
 TEST(ColourEvidence, SpeaksForGreenAutumnAndBlossom) {
-  EXPECT_GT(of(75, 98, 62), 1.5);     // a dull green
-  EXPECT_GT(of(20, 60, 15), 1.5);     // a dark one
-  EXPECT_GT(of(60, 140, 40), 2);      // a clear one
+  EXPECT_GT(of(75, 98, 62), 1.5);     // dull green
+  EXPECT_GT(of(20, 60, 15), 1.5);     // dark green
+  EXPECT_GT(of(60, 140, 40), 2);      // clear green
   EXPECT_GT(of(200, 180, 60), 0.5);   // yellow
   EXPECT_GT(of(210, 90, 30), 0.3);    // orange
   EXPECT_GT(of(200, 40, 40), 0.3);    // red
@@ -47,11 +47,11 @@ TEST(AlphaEvidence, NeedsHoles) {
   Appearance look;
   EXPECT_EQ(alpha_evidence(look, AlphaMode::mask, false), 0);
   EXPECT_EQ(alpha_evidence(look, AlphaMode::blend, false), 0);
-  EXPECT_GT(alpha_evidence(look, AlphaMode::mask, true), 0);  // an image that cannot be read
+  EXPECT_GT(alpha_evidence(look, AlphaMode::mask, true), 0);  // the image cannot be read
   look.cut = 0.6;
   EXPECT_EQ(alpha_evidence(look, AlphaMode::mask, false), 3);
   EXPECT_GT(alpha_evidence(look, AlphaMode::opaque, false), 0);
-  look.cut = 1;  // an alpha that means something else
+  look.cut = 1;  // the alpha must mean something else
   EXPECT_EQ(alpha_evidence(look, AlphaMode::opaque, false), 0);
 }
 

@@ -52,7 +52,7 @@ inline Primitive ball(Vec3f centre, float radius) {
   return primitive;
 }
 
-/// Small cards in many places of a ball.
+/// Small cards all over a ball.
 inline Primitive cards(Vec3f centre, float radius, int count = 200, float half = 0.05f) {
   Primitive primitive;
   for (int i = 0; i < count; ++i) {
@@ -79,7 +79,7 @@ inline Primitive ground(float half, float height = 0) {
   return primitive;
 }
 
-/// Both as one primitive, the second after the first.
+/// Both in one primitive, the second after the first.
 inline Primitive joined(Primitive first, const Primitive& second) {
   const auto base = static_cast<std::uint32_t>(first.positions.size());
   const auto append = [](auto& to, const auto& from) {
@@ -94,13 +94,13 @@ inline Primitive joined(Primitive first, const Primitive& second) {
   return first;
 }
 
-/// The same colour at every vertex.
+/// The primitive with the same colour at every vertex.
 inline Primitive coloured(Primitive primitive, Vec3f linear) {
   primitive.colors.assign(primitive.positions.size(), linear);
   return primitive;
 }
 
-/// All of a primitive's texture coordinates in one place, as on a palette.
+/// The primitive with all texture coordinates at one point, as on a palette.
 inline Primitive swatch(Primitive primitive, Vec2f uv) {
   primitive.uvs.assign(primitive.positions.size(), uv);
   return primitive;
@@ -112,7 +112,7 @@ inline Material painted(std::string name, Vec3f linear) {
   return {.name = std::move(name), .base_color = {linear.x, linear.y, linear.z, 1}};
 }
 
-/// A thing with names and a material of its own.
+/// A primitive with its own names and material.
 struct Thing {
   Thing(Primitive shape, Material painted_so, std::string mesh_name = "",
         std::string node_name = "")
@@ -126,7 +126,7 @@ struct Thing {
   std::string mesh, node;
 };
 
-/// Each thing placed once where it is.
+/// A model in which each thing is placed once, untransformed.
 inline TreeModel model_of(std::vector<Thing> things) {
   TreeModel tree;
   tree.path = "oak.glb";
@@ -146,7 +146,7 @@ inline bool contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
-/// By instance, whether it is taken as leaves.
+/// For each instance, whether it is taken as leaves.
 inline std::vector<bool> taken(const TreeModel& tree, const LeafOptions& options = {}) {
   return choose_leaves(tree, options).instances;
 }

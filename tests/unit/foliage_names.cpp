@@ -66,7 +66,7 @@ TEST(Names, TheLastWordDecides) {
   EXPECT_EQ(growth_of("Leaf_Stem"), Growth::wood);
   EXPECT_EQ(growth_of("Rinde_Leaf"), Growth::leaves);
   EXPECT_EQ(growth_of("Leafless_trunk"), Growth::wood);
-  // Words against each other say less.
+  // Contradicting words weigh less.
   EXPECT_LT(weight_of("BranchLeaves"), weight_of("Leaves"));
 }
 

@@ -18,7 +18,7 @@
 
 namespace leafhull::test {
 
-/// A hole where the radius is negative.
+/// A ball, or a hole if the radius is negative.
 struct Ball {
   Vec3d centre;
   double radius;
@@ -27,12 +27,12 @@ struct Ball {
 /// A closed mesh whose vertices know their cells and whose triangles know the lowest one around.
 struct LatticeMesh {
   Mesh mesh;
-  std::vector<Coord> cell;           ///< by vertex
-  std::vector<std::uint32_t> patch;  ///< which of its cell's vertices
-  std::vector<Coord> lowest;         ///< by triangle
+  std::vector<Coord> cell;           ///< of each vertex
+  std::vector<std::uint32_t> patch;  ///< of each vertex, its number in its cell
+  std::vector<Coord> lowest;         ///< of each triangle
 };
 
-/// Balls, and holes in them, in 1 / 8192 voxels, within [low, high).
+/// The mesh of balls and holes within [low, high), in 1 / 8192 voxels.
 inline LatticeMesh mesh_of(const std::vector<Ball>& balls, Coord low, Coord high) {
   const auto density = [&](Vec3d p) {
     double highest = 0;
@@ -78,7 +78,7 @@ inline bool is_lent(Coord cell, int edge) {
   return cell.x == tile.x * edge || cell.y == tile.y * edge || cell.z == tile.z * edge;
 }
 
-/// For each vertex one that stands for all that it is connected to.
+/// For each vertex, the vertex that represents its component.
 inline std::vector<std::uint32_t> roots_of(const Mesh& mesh) {
   std::vector<std::uint32_t> root(mesh.positions.size());
   std::iota(root.begin(), root.end(), 0u);
@@ -113,8 +113,9 @@ using Tiles = std::map<TileId, TileSurface>;
 
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 
-/// @param own       the vertices in the tile's cells.
-/// @param triangles those whose lowest cell is one of the tile's.
+/// The part of the mesh in one tile.
+/// @param own       the vertices in the tile's cells
+/// @param triangles the triangles whose lowest cell is in the tile
 inline TileSurface cut_tile(const LatticeMesh& whole, int edge, Coord at,
                             const std::vector<std::uint32_t>& own, const Triangles& triangles) {
   std::set<std::tuple<Coord, std::uint32_t, std::uint32_t>> borrowed;
@@ -159,7 +160,7 @@ inline TileSurface cut_tile(const LatticeMesh& whole, int edge, Coord at,
   return tile;
 }
 
-/// Every tile with anything in it, and one above each.
+/// Every tile that is not empty, and the tile above each.
 inline Tiles cut(const LatticeMesh& whole, int edge, int level = 0) {
   std::map<Coord, std::vector<std::uint32_t>> own;
   std::map<Coord, Triangles> triangles;
@@ -179,11 +180,11 @@ inline Tiles cut(const LatticeMesh& whole, int edge, int level = 0) {
   return tiles;
 }
 
-/// What all tiles make together: without pieces that reach a seam and whose volume is below
-/// `least`, in the order of the tiles.
+/// The mesh of all tiles, in their order, without pieces that reach a seam and have a volume below
+/// `least`.
 struct Welded {
   Mesh mesh;
-  std::size_t dropped = 0;  ///< pieces
+  std::size_t dropped = 0;  ///< number of pieces
 };
 inline Welded expected_weld(const LatticeMesh& whole, int edge, ExactVolume least) {
   const std::vector<std::uint32_t> root = roots_of(whole.mesh);
@@ -230,7 +231,7 @@ inline Welded expected_weld(const LatticeMesh& whole, int edge, ExactVolume leas
   return welded;
 }
 
-/// The directed edges that have no edge the other way.
+/// The number of directed edges without an edge the other way.
 inline std::size_t open_edges(const Mesh& mesh) {
   std::map<std::pair<std::uint32_t, std::uint32_t>, int> count;
   for (const auto& [a, b, c] : mesh.triangles) {

@@ -51,7 +51,7 @@ PlacedTree placed(const Matrix& linear, Vec3d position, std::uint32_t model = 0)
   return tree;
 }
 
-/// A tree turned and scaled at random, somewhere in a square.
+/// Trees with a random rotation and scale, somewhere in a square.
 class RandomTrees {
  public:
   PlacedTree next(std::uint32_t model = 0, double width = 200, Vec3d centre = {}) {
@@ -66,7 +66,7 @@ class RandomTrees {
   std::mt19937_64 engine_{7};
 };
 
-/// An egg, so that no turn leaves it as it is.
+/// An egg, which looks different after any rotation.
 ModelShape egg(const std::string& name, int rings = 6, Vec3d origin = {}) {
   ModelShape shape{name, sphere(rings, origin)};
   for (Vec3f& p : shape.mesh.positions) p = {p.x, 2 * p.y + 0.25f * p.x, 3 * p.z + 1};
@@ -89,7 +89,7 @@ std::vector<Element> elements(const tinygltf::Model& model, int index) {
   return result;
 }
 
-/// How glTF places something: translation, rotation x y z w, scale.
+/// A glTF placement: translation, rotation x y z w, scale.
 struct Pose {
   Vec3d t{};
   std::array<double, 4> r{0, 0, 0, 1};
@@ -124,7 +124,7 @@ std::vector<Crown> crowns_of(const tinygltf::Model& model) {
   const auto show = [&](const tinygltf::Node& node, const std::vector<Pose>& poses,
                         bool instanced) {
     const auto& mesh = model.meshes.at(static_cast<std::size_t>(node.mesh));
-    EXPECT_EQ(mesh.name, "abstract shape");  // as others know it
+    EXPECT_EQ(mesh.name, "abstract shape");  // other rooms know shapes by this name
     Crown crown{node.name, instanced, {}};
     for (Vec3f p : elements<Vec3f>(model, mesh.primitives.at(0).attributes.at("POSITION"))) {
       Vec3d at(p);
@@ -161,7 +161,7 @@ std::vector<Crown> crowns_of(const tinygltf::Model& model) {
 
 std::vector<Crown> crowns_of(const std::string& glb) { return crowns_of(load_glb(glb)); }
 
-/// That the crown is the tree's; `tolerance` in sizes of the crown.
+/// Expects the crown to be that of the tree; `tolerance` is in sizes of the crown.
 void expect_crown(const Crown& crown, const PlacedTree& tree, const std::vector<ModelShape>& shapes,
                   double tolerance = 3e-6) {
   const ModelShape& shape = shapes.at(tree.model);
@@ -265,7 +265,7 @@ TEST(Instances, ThatMirrorAreNodesOfTheirOwn) {
     EXPECT_EQ(crown.instanced, i == 0);
     expect_crown(crown, trees[i], shapes);
   }
-  // Viewers turn faces around where a node's scales multiply to less than nothing.
+  // Viewers reverse faces if the product of a node's scales is negative.
   EXPECT_LT(model.nodes[0].scale.at(0) * model.nodes[0].scale.at(1) * model.nodes[0].scale.at(2),
             0);
 }

@@ -19,12 +19,12 @@ using Clock = std::chrono::steady_clock;
 
 class ForestStoreDamage : public testing::Test {
  protected:
-  /// A whole run; only what is missing is put.
+  /// A whole run, which puts only the missing tiles.
   void run(const fs::path& at) const {
     Store store(at, plan(), "one", true, false);
     if (!store.finished()) finish(store, tiles, "all.glb");
   }
-  /// What an undisturbed run leaves.
+  /// The files of an undisturbed run.
   std::map<std::string, std::string> undisturbed() const {
     const TemporaryFolder other;
     run(other.path());
@@ -114,7 +114,7 @@ TEST_F(ForestStoreDamage, EveryBitOfAJournalCounts) {
     EXPECT_TRUE(failure.starts_with("3 ")) << failure;
     const auto line = 1 + std::count(whole.begin(), whole.begin() + std::ptrdiff_t(at), '\n');
     const std::string where = journal.string() + ", line " + std::to_string(line);
-    // A line end that is none any more makes the line longer, a new one makes it shorter.
+    // A damaged line end makes the line longer, a new one makes it shorter.
     EXPECT_NE(failure.find(where), std::string::npos) << failure;
   }
   write(journal, whole + "notes\n");
@@ -134,7 +134,8 @@ TEST_F(ForestStoreDamage, AJournalOfAnotherForestIsRefused) {
   const std::string failure =
       failure_of([&] { const Store store(other.path(), another, "one", true, false); });
   EXPECT_TRUE(failure.starts_with("2 ")) << failure;
-  EXPECT_NE(failure.find("journal-two.jsonl, line 1, is of another forest"), std::string::npos);
+  EXPECT_NE(failure.find("journal-two.jsonl, line 1, belongs to another forest"),
+            std::string::npos);
 }
 
 TEST_F(ForestStoreDamage, ADamagedPlanOrManifestIsRefused) {
@@ -170,7 +171,7 @@ TEST_F(ForestStoreDamage, IsFoundBeforeTilesAreInPlace) {
   const auto expected = undisturbed();
   for (const char* extension : {".glb", ".seam"}) {
     const fs::path file =
-        folder / (std::string("work/0/0_0_0") + extension);  // which loses nothing
+        folder / (std::string("work/0/0_0_0") + extension);  // this tile drops no pieces
     std::string bytes = content(file);
     bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 1);
     fs::remove(file);
@@ -266,7 +267,7 @@ TEST_F(ForestStoreDamage, ManyKillsEndWithTheSameBytes) {
   RecordProperty("runs", runs);
 }
 
-/// What a whole run fails with in a process whose files may not exceed `bytes`.
+// A whole run fails in a process whose files may not exceed `bytes`, and a later run continues it.
 TEST_F(ForestStoreDamage, AFullDiskLeavesItToGoOnWith) {
   const auto expected = undisturbed();
   const auto handler = std::signal(SIGXFSZ, SIG_IGN);
@@ -282,7 +283,7 @@ TEST_F(ForestStoreDamage, AFullDiskLeavesItToGoOnWith) {
     EXPECT_TRUE(failure.starts_with("5 ")) << failure;
     EXPECT_NE(failure.find("File too large"), std::string::npos) << failure;
     failures.insert(failure);
-    // No more than the two files of the failed tile are without a line.
+    // The folder still opens; at most the two files of the failed tile have no line.
     EXPECT_EQ(opening(), "");
   }
   std::signal(SIGXFSZ, handler);

@@ -90,7 +90,7 @@ TEST_F(ForestStore, ChecksumsAreSha256) {
 
 TEST_F(ForestStore, IsNotGoneOnWithByAccident) {
   EXPECT_EQ(opening(false), "");
-  EXPECT_EQ(opening(false), "");  // no tile is done yet
+  EXPECT_EQ(opening(false), "");  // no tile is done so far
   fill(3);
   expect_words(opening(false), {"2 ", "unfinished forest: 3 tiles", "--resume", "--restart"});
   EXPECT_EQ(opening(true), "");

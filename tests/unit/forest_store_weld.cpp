@@ -11,7 +11,7 @@
 namespace leafhull::test {
 namespace {
 
-/// A binary PLY as leafhull writes them.
+/// Reads a binary PLY that leafhull wrote.
 Mesh read_ply(const std::string& bytes, bool doubles) {
   const std::size_t head = bytes.find("end_header\n") + 11;
   const auto number_behind = [&](const std::string& words) {
@@ -45,7 +45,7 @@ Mesh read_ply(const std::string& bytes, bool doubles) {
   return mesh;
 }
 
-/// The welded GLB, whose vertices are interleaved.
+/// Reads a welded GLB, whose vertices are interleaved.
 Mesh read_welded_glb(const std::string& bytes) {
   const tinygltf::Model model = load_glb(bytes);
   const auto& accessors = model.accessors;
@@ -187,7 +187,7 @@ TEST_F(ForestWeld, PutsEveryTileInPlace) {
   EXPECT_GT(lighter, 0u);
   EXPECT_TRUE(std::is_sorted(forest.tiles.begin(), forest.tiles.end(),
                              [](const auto& a, const auto& b) { return a.id() < b.id(); }));
-  // Those that have lost everything have no file.
+  // Tiles that have lost all pieces have no file.
   std::size_t lost = 0;
   for (const auto& [id, tile] : tiles) {
     const auto is_it = [&, wanted = id](const TileRecord& found) { return found.id() == wanted; };

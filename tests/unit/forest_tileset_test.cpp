@@ -19,7 +19,7 @@ using nlohmann::json;
 
 constexpr std::array kErrors{0.25, 0.75, 2.0, 6.0};
 
-/// A tile with a surface in a part of its cube, cubes of level 0 being of edge 16.
+/// A tile whose surface fills a part of its cube. Cubes of level 0 have an edge of 16.
 TileRecord tile(int level, Coord at) {
   const double edge = 16.0 * (1 << level);
   TileRecord tile({level, at});
@@ -62,7 +62,7 @@ std::vector<std::string> uris(const json& tileset) {
   return found;
 }
 
-/// What must hold between any tile and its ancestors, and that all surfaces are there, once each.
+/// Checks every tile against its ancestors, and that each surface occurs exactly once.
 void check(const json& tileset, const std::vector<TileRecord>& tiles) {
   std::map<std::string, Box> surfaces;
   for (const TileRecord& tile : tiles) {
@@ -168,7 +168,7 @@ TEST(Tileset, MakesParentsThatHaveNoSurface) {
   const std::vector tiles{tile(0, {0, 0, 0}), tile(0, {40, 0, 0}), tile(2, {0, 0, 0}),
                           empty_tile(1, {20, 0, 0})};
   const json tileset = test::tileset(tiles);
-  const json& far = tileset["root"].at("children")[1];  // over the tile at 40
+  const json& far = tileset["root"].at("children")[1];  // an ancestor of the tile at 40
   EXPECT_EQ(uri(far), "");
   EXPECT_EQ(far["geometricError"], kErrors[2]);
   EXPECT_EQ(uri(far.at("children")[0]), "");
@@ -207,7 +207,7 @@ std::vector<TileRecord> forest(int edge, std::uint32_t seed) {
   for (const TileId& id : ids) {
     TileRecord tile = test::tile(id.level, id.at);
     const Vec3d corner = to_vec3d(id.at) * (16.0 * (1 << id.level));
-    for (int i = 0; i < 2; ++i) {  // numbers with no end in binary
+    for (int i = 0; i < 2; ++i) {  // the binary digits of these do not end
       tile.bounds.include(corner + Vec3d{place(random), place(random), place(random)});
     }
     tiles.push_back(tile);

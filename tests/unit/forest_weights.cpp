@@ -13,7 +13,7 @@
 namespace leafhull {
 namespace {
 
-/// A shear that mirrors, a similarity and a tree that stays where it is.
+/// A mirroring shear, a similarity and a tree that is only moved.
 const std::vector<PlacedTree> kTrees{
     {.position = {1e3, -20, 7}, .linear = {-1.2f, 0.3f, 0, 0.1f, 0.8f, -0.4f, 0.2f, 0, 1.5f}},
     {.position = {1e3, -19, 8}, .linear = {0, -1.4f, 0, 1.4f, 0, 0, 0, 0, 1.4f}},
@@ -21,7 +21,7 @@ const std::vector<PlacedTree> kTrees{
 
 Vec3d carried_by(const PlacedTree& tree, Vec3d p) { return TreeMap(tree)(p); }
 
-/// D(p) of a kernel on a lattice, p in voxels.
+/// D(p) of a kernel on a lattice; p is in voxels.
 double density_of(const LatticeKernel& k, Vec3d p, int falloff) {
   const Vec3d d = p - to_vec3d(k.cell) - Vec3d(k.offset);
   const double x = k.xx * d.x + k.xy * d.y + k.xz * d.z;
@@ -83,7 +83,7 @@ TEST(PlacedKernels, AddUpToTheDensitiesOfTheTrees) {
       const Vec3d p = carried_by(kTrees[static_cast<std::size_t>(i) % 3], in_model);
       double expected = 0, near = 0;
       for (const PlacedTree& tree : kTrees) {
-        // Back to the model: the columns of A^-1 from those of A.
+        // Maps p back to the model; the columns of A give A^-1.
         const auto& m = tree.linear;
         const auto column = [&](int c) { return Vec3d(Vec3f(m[c], m[3 + c], m[6 + c])); };
         const Vec3d x = column(0), y = column(1), z = column(2), d = p - tree.position;

@@ -22,7 +22,7 @@ Bytes bytes_of(const std::vector<T>& values) {
   return Bytes(data, data + values.size() * sizeof(T));
 }
 
-/// Triangles as they go into a glTF primitive; what is empty is left out.
+/// The content of a glTF primitive; empty lists are left out.
 struct GlbPrimitive {
   std::vector<Vec3f> positions, normals;
   std::vector<Vec2f> uvs;
@@ -30,7 +30,7 @@ struct GlbPrimitive {
   int material = -1;
 };
 
-/// Makes small glTF files in memory. `json` and `bin` are open: a test may spoil whatever it likes
+/// Builds small glTF files in memory. `json` and `bin` are public, so that a test can spoil them
 /// before it asks for the file. Every add_ function returns the index of what it added.
 class GlbBuilder {
  public:
@@ -62,7 +62,7 @@ class GlbBuilder {
     return add_accessor(v, "SCALAR", 5125, v.size());
   }
 
-  /// A texture of RGBA pixels; its index is the one a material asks for.
+  /// Adds a texture of RGBA pixels; materials refer to it by the index.
   int add_texture(int width, int height, std::span<const std::uint8_t> rgba) {
     const int image = add(
         "images", {{"bufferView", add_view(png(width, height, rgba))}, {"mimeType", "image/png"}});
@@ -91,8 +91,7 @@ class GlbBuilder {
     return add("meshes", {{"name", name}, {"primitives", list}});
   }
 
-  /// A root of the scene. `properties` are merged in: translation, rotation, matrix, extensions,
-  /// ...
+  /// Adds a root node to the scene, with `properties` such as translation, matrix or extensions.
   int add_node(const std::string& name, int mesh,
                const nlohmann::json& properties = nlohmann::json::object()) {
     nlohmann::json node = properties;
@@ -115,7 +114,7 @@ class GlbBuilder {
     return pack(document.dump(), bin);
   }
 
-  /// A GLB of any text and binary chunk.
+  /// Packs any text and binary chunk into a GLB.
   static Bytes pack(std::string text, Bytes binary) {
     text.resize((text.size() + 3) / 4 * 4, ' ');
     binary.resize((binary.size() + 3) / 4 * 4);

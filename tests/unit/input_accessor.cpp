@@ -7,7 +7,7 @@
 namespace leafhull::test {
 namespace {
 
-/// A triangle whose POSITION is an accessor of the test's making.
+/// Reads a triangle whose POSITION is the given accessor.
 Primitive read_positions(GlbBuilder& b, int accessor, int uv = -1) {
   nlohmann::json primitive;
   primitive["attributes"]["POSITION"] = accessor;

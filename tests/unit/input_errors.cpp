@@ -27,7 +27,7 @@ GlbBuilder plain() {
   return b;
 }
 
-/// Expects one clear line that holds `part`, and a remedy.
+/// Expects an error of one line that holds `part`, with a remedy.
 void expect_error(const std::function<void()>& read, const std::string& part) {
   try {
     read();
@@ -47,7 +47,7 @@ void expect_error(const Bytes& bytes, const std::string& part) {
 }
 
 struct Spoiled {
-  const char* part;  // of the message
+  const char* part;  // a part of the message
   std::function<void(GlbBuilder&)> spoil;
 };
 
@@ -69,7 +69,7 @@ void poke(GlbBuilder& b, int view, std::size_t at, T value) {
   std::memcpy(b.bin.data() + offset + at, &value, sizeof value);
 }
 
-// In plain(): accessors and views 0 POSITION, 1 NORMAL, 2 TEXCOORD_0, 3 indices.
+// In plain(), accessors and views are 0 POSITION, 1 NORMAL, 2 TEXCOORD_0, 3 indices.
 INSTANTIATE_TEST_SUITE_P(
     Gltf, Spoil,
     testing::Values(
@@ -176,7 +176,7 @@ TEST(BadInput, DamagedContainers) {
   expect_error(Bytes(good.begin(), good.begin() + 15), "GLB header: is cut off");
   expect_error(Bytes(good.begin(), good.end() - 10), "GLB header: says");
   Bytes longer = good;
-  longer[12] = 0xFF;  // of the JSON chunk
+  longer[12] = 0xFF;  // the length of the JSON chunk
   longer[14] = 0xFF;
   expect_error(longer, "GLB chunk 0: says");
   Bytes old = good;
@@ -282,9 +282,9 @@ TEST(BadInput, FilesThatAreNotTrees) {
   expect_error(reading(folder / "none.glb"), "none.glb: cannot be read: No such file");
   expect_error(reading(folder.path()), "Is a directory");
   expect_error(reading(write("empty.glb", "")), "is empty");
-  expect_error(reading(write("noise.glb", "noise")), "is not a glTF file in spite of its name");
-  expect_error(reading(write("tree.fbx", "Kaydara")), "is not an FBX file in spite of its name");
-  expect_error(reading(write("tree.txt", "a tree")), "is no glTF, FBX or OBJ file");
+  expect_error(reading(write("noise.glb", "noise")), "is not a glTF file despite its name");
+  expect_error(reading(write("tree.fbx", "Kaydara")), "is not an FBX file despite its name");
+  expect_error(reading(write("tree.txt", "a tree")), "is not a glTF, FBX or OBJ file");
   expect_error(reading(write("package.gltf", "{\"name\": 1}")), "not a glTF document");
   expect_error(reading(write("lost.gltf",
                              R"({"asset":{"version":"2.0"},

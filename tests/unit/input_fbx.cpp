@@ -37,7 +37,7 @@ FbxRecord fbx_layer(const std::string& kind, const std::string& values, std::vec
            {values, {std::move(data)}}}};
 }
 
-/// A square of side 2 in the plane of x and y about the origin, seen from z, one quad.
+/// Adds one quad: a square of side 2 around the origin in the x, y plane, facing +z.
 FbxRecord& add_fbx_square(FbxBuilder& file, std::int64_t id = kFbxMesh,
                           const std::string& name = "Square") {
   return file.object(id, "Geometry", name, "Mesh",
@@ -69,7 +69,7 @@ void add_fbx_texture(FbxBuilder& file, std::int64_t id, const std::string& path,
   file.connect(id, kFbxMaterial, property_name);
 }
 
-/// In metres, as a leaf "Square" under a node "Leaf".
+/// That square in metres, as a leaf "Square" under a node "Leaf".
 FbxBuilder fbx_square() {
   FbxBuilder file;
   file.settings = {property("UnitScaleFactor", "double", {100})};
@@ -125,7 +125,7 @@ TEST(Fbx, IsTheSameAsTextAndBinary) {
     EXPECT_EQ(primitive.triangles.size(), 2u);
     ASSERT_EQ(primitive.positions.size(), 4u);
     EXPECT_EQ(primitive.normals[0], Vec3f(0, 0, 1));
-    for (std::size_t i = 0; i < 4; ++i) {  // v down
+    for (std::size_t i = 0; i < 4; ++i) {  // v points down
       EXPECT_EQ(primitive.uvs[i].y, primitive.positions[i].y > 0 ? 0 : 1);
     }
     EXPECT_TRUE(tree.warnings.empty()) << tree.warnings[0];
@@ -150,7 +150,7 @@ TEST(Fbx, IsInMetresAndStandsUp) {
                    property("FrontAxisSign", "int", {-1}),
                    property("CoordAxis", "int", {0}),
                    property("CoordAxisSign", "int", {1})};
-  // Its y is the world's -z.
+  // The file's y is the world's -z.
   const Box box = fbx_box(fbx_world(read_fbx_text(file.ascii())));
   expect_fbx_near(box.low, {-0.01, 0, -0.01});
   expect_fbx_near(box.high, {0.01, 0, 0.01});
@@ -160,7 +160,7 @@ TEST(Fbx, IsInMetresAndStandsUp) {
 
 TEST(Fbx, UpOverridesWhatItSays) {
   const TemporaryFolder folder;
-  std::ofstream(folder / "t.fbx") << fbx_square().ascii();  // y up
+  std::ofstream(folder / "t.fbx") << fbx_square().ascii();  // y is up
   ReadOptions options;
   options.up = Up::z;
   expect_fbx_near(fbx_box(fbx_world(read_tree(folder / "t.fbx", options))).high, {1, 0, 1});
@@ -177,7 +177,7 @@ TEST(Fbx, TransformsGeometryAndPivots) {
                  property("GeometricTranslation", "Vector3D", {0, 0, 5}),
                  property("GeometricScaling", "Vector3D", {2, 1, 1})});
   file.connect(kFbxMesh, kFbxModel);
-  // (x, y) -> (2x, y), then about (1, 0) by a quarter of a turn, then 10 to the right.
+  // (x, y) -> (2x, y), then a quarter turn about (1, 0), then 10 to the right.
   const Box box = fbx_box(fbx_world(read_fbx_text(file.binary())));
   expect_fbx_near(box.low, {10, -3, 5});
   expect_fbx_near(box.high, {12, 1, 5});

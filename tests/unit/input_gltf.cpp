@@ -117,7 +117,7 @@ TEST(Gltf, ComposesTransformsInDouble) {
   b.json["scenes"][0]["nodes"] = {0};
   const TreeModel tree = read(b);
   ASSERT_EQ(tree.instances.size(), 1u);
-  // (1, 1, 0) -> scaled (2, 3, 0) -> moved (2.125, 3, 0) -> turned (-3, 2.125, 0) -> moved
+  // (1, 1, 0) -> scaled (2, 3, 0) -> moved (2.125, 3, 0) -> turned (-3, 2.125, 0) -> moved.
   expect_near(at(tree.instances[0], {1, 1, 0}), {1e7 - 3, 2.125, 0}, 1e-8);
 }
 
@@ -158,7 +158,7 @@ TEST(Gltf, PlacesInstancesWithNormalisedRotations) {
   const TreeModel tree = read(b);
   ASSERT_EQ(tree.instances.size(), 2u);
   expect_near(at(tree.instances[0], {1, 0, 0}), {2, 0, 9});
-  expect_near(at(tree.instances[1], {1, 0, 0}), {0, 0, 9});  // 2 - 2: half a turn about z
+  expect_near(at(tree.instances[1], {1, 0, 0}), {0, 0, 9});  // x = 2 - 2 after half a turn about z
   EXPECT_EQ(tree.instances[1].node_name, "copies");
 }
 
@@ -233,7 +233,7 @@ TEST(Gltf, DecompressesDraco) {
         cross(p.positions[t[1]] - p.positions[t[0]], p.positions[t[2]] - p.positions[t[0]]).z / 2;
   EXPECT_NEAR(area, 1, 1e-5);
   for (std::size_t i = 0; i < 4; ++i) {
-    EXPECT_NEAR(p.uvs[i].x, p.positions[i].x, 1e-4);  // as in square(): u = x, v = 1 - y
+    EXPECT_NEAR(p.uvs[i].x, p.positions[i].x, 1e-4);  // u = x, v = 1 - y as in square()
     EXPECT_NEAR(p.uvs[i].y, 1 - p.positions[i].y, 1e-4);
     EXPECT_NEAR(p.normals[i].z, 1, 1e-2);
   }
@@ -243,7 +243,7 @@ TEST(Gltf, DecompressesMeshoptWithAFallbackBufferThatIsNotThere) {
   GlbBuilder b;
   b.add_node("n", b.add_mesh("m", {square()}));
   compress_with_meshopt(b, square());
-  // What was stored plainly must not be what is read.
+  // The uncompressed data must not be read.
   const std::size_t plain = b.json["bufferViews"][0]["byteOffset"];
   std::fill_n(b.bin.begin() + std::ptrdiff_t(plain), 48, std::uint8_t(0xAB));
   const Primitive p = read(b).primitives[0];
@@ -261,7 +261,7 @@ TEST(Gltf, ReadsTextWithDataUriAndExternalBuffer) {
   std::ofstream(folder / "external.gltf") << b.json.dump();
   EXPECT_EQ(read_tree(folder / "external.gltf").primitives[0].positions, square().positions);
 
-  // Three vertices (0,0,0) (1,0,0) (0,1,0), as any base64 encoder writes them.
+  // The vertices (0,0,0), (1,0,0), (0,1,0) in base64.
   GlbBuilder text;
   text.json["buffers"] = {{{"byteLength", 36},
                            {"uri",

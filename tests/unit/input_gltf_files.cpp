@@ -31,7 +31,7 @@ std::string base64(const Bytes& bytes) {
   return text;
 }
 
-/// A folder for a tree and the files that it names, with room for some above it.
+/// A folder for a tree and the files that it names, inside another for files above it.
 class GltfFiles : public testing::Test {
  protected:
   void write(const std::string& name, const Bytes& bytes) const {
@@ -42,7 +42,7 @@ class GltfFiles : public testing::Test {
   }
   void write_image(const std::string& name) const { write(name, png(2, 1, kTwoPixels)); }
 
-  /// A textured square whose image or buffer is at a URI.
+  /// A textured square whose image has this URI.
   static GlbBuilder square_with_image(const std::string& uri) {
     GlbBuilder b;
     b.add("images", {{"uri", uri}});
@@ -100,7 +100,7 @@ TEST_F(GltfFiles, BuffersAreFoundAsImagesAre) {
 
 TEST_F(GltfFiles, FilesInOtherCaseOrPlaceAreSaid) {
   write_image("trees/Textures/Leaf.PNG");
-  expect_image("textures/leaf.png", "is not there; taken instead is");
+  expect_image("textures/leaf.png", "does not exist; used instead is");
   expect_image("maps/leaf.png", "Textures/Leaf.PNG");
   expect_image("C:/Users/Ann/leaf.png", "is taken from the file's own folder");
   expect_image("file:///C:/Users/Ann/leaf.png", "is taken from the file's own folder");

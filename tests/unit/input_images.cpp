@@ -56,10 +56,10 @@ TEST(Images, DecodesOnlyWhatAPrimitiveShows) {
   EXPECT_EQ(tree.materials[1].base_color_image, -1);
 }
 
-// Four at a time, in the order in which they were asked for.
+// Images are decoded four at a time and kept in the order in which they were asked for.
 TEST(Images, AreKeptUpToALimit) {
   TreeModel tree;
-  ImageTable table(10 * 16);  // ten of 2 x 2 pixels
+  ImageTable table(10 * 16);  // ten images of 2 x 2 pixels
   const auto load = [](const std::string& name) {
     ImageSource source{.name = name, .place = "place of " + name};
     source.load = [name]() -> leafhull::Bytes {
@@ -87,7 +87,7 @@ TEST(Images, TellsInOneLineWhyThereIsNone) {
   const Bytes whole = png(2, 2, kPixels);
   for (const std::string& chunk : {std::string(4, '\0'), std::string("A\nB\n")}) {
     Bytes file = whole;
-    std::copy(chunk.begin(), chunk.end(), file.begin() + 37);  // for IDAT
+    std::copy(chunk.begin(), chunk.end(), file.begin() + 37);  // replaces IDAT
     std::string reason;
     EXPECT_TRUE(decode_image(file, "x.png", reason).empty());
     EXPECT_FALSE(reason.empty());
@@ -106,7 +106,7 @@ TEST(Images, WarnsOfMissingAndBrokenTextures) {
   };
   GlbBuilder broken = textured();
   broken.bin[0] = 0;
-  EXPECT_NE(warning(broken).find("no image that is known"), std::string::npos);
+  EXPECT_NE(warning(broken).find("format is unknown"), std::string::npos);
   GlbBuilder cut = textured();
   cut.json["bufferViews"][0]["byteLength"] = 40;
   EXPECT_NE(warning(cut).find("images[0]"), std::string::npos);
@@ -118,7 +118,7 @@ TEST(Images, WarnsOfMissingAndBrokenTextures) {
   EXPECT_NE(warning(no_image).find("images[7]"), std::string::npos);
   GlbBuilder basis = textured();
   basis.json["textures"][0] = {{"extensions", {{"KHR_texture_basisu", {{"source", 0}}}}}};
-  basis.bin[0] = 0xAB;  // as KTX2 files begin
+  basis.bin[0] = 0xAB;  // KTX2 files begin with this byte
   basis.json["extensionsRequired"] = {"KHR_texture_basisu"};
   warning(basis);
 }
@@ -174,12 +174,12 @@ TEST(Images, OfOtherFormatsAreNamed) {
             std::string::npos);
   EXPECT_NE(reason_of("DDS |", "a.dds").find("DDS; PNG, JPEG, WebP"), std::string::npos);
   EXPECT_NE(reason_of("GIF89a", "a.png").find("GIF"), std::string::npos);
-  EXPECT_NE(reason_of("what", "a.png").find("no image that is known"), std::string::npos);
+  EXPECT_NE(reason_of("what", "a.png").find("format is unknown"), std::string::npos);
   EXPECT_NE(reason_of("", "a.png"), "");
 }
 
 TEST(Images, OfTgaAreKnownByTheirName) {
-  // One pixel, 32 bits, uncompressed: blue, green, red, alpha.
+  // One uncompressed pixel of 32 bits: blue, green, red, alpha.
   const Bytes tga{0, 0, 2, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 1, 0, 32, 8, 3, 2, 1, 77};
   std::string reason;
   EXPECT_EQ(decode_image(tga, "LEAF.TGA", reason).rgba, (Bytes{1, 2, 3, 77})) << reason;
@@ -192,7 +192,7 @@ TEST(Images, OfTgaHaveAllTheirPixelsAndNoOtherFormat) {
     EXPECT_TRUE(decode_image(bytes, "leaf.tga", reason).empty());
     return reason;
   };
-  // Two pixels of which one is there; as a run, one pixel of 129.
+  // One of two pixels is missing; then, after a run of 128, one of 129.
   const std::string unknown = reason_of({});
   EXPECT_EQ(reason_of({0, 0, 2, 0, 0, 0, 0, 0, 0, 0, 0, 0, 2, 0, 1, 0, 32, 8, 3, 2, 1, 7}),
             unknown);
@@ -202,7 +202,7 @@ TEST(Images, OfTgaHaveAllTheirPixelsAndNoOtherFormat) {
   EXPECT_EQ(reason_of(Bytes(pnm.begin(), pnm.end())), unknown);
 }
 
-/// 8 x 8 grey, all of one value, with a code in either table.
+/// 8 x 8 grey pixels of one value; each of the two tables has one code.
 Bytes jpeg() {
   Bytes bytes{0xFF, 0xD8, 0xFF, 0xDB, 0, 67, 0};
   bytes.insert(bytes.end(), 64, 1);
@@ -228,10 +228,10 @@ TEST(Images, OfJpegHaveSoundTables) {
   EXPECT_TRUE(is_read(jpeg()));
   Bytes padded = jpeg();
   padded.insert(padded.begin() + kFrame, {0, 0, 0xFF, 0xFF, 0xFE, 0, 4, 0xFF, 0xC4, 0xFF});
-  EXPECT_TRUE(is_read(padded));  // a comment that looks like a table
+  EXPECT_TRUE(is_read(padded));  // the comment looks like a table
   for (const std::size_t table : {kCodes, kOtherCodes}) {
     Bytes more = jpeg();
-    more[table + 12] = more[table + 13] = 200;  // of 401 codes
+    more[table + 12] = more[table + 13] = 200;  // 401 codes
     EXPECT_FALSE(is_read(more));
     Bytes none = jpeg();
     none.erase(none.begin() + table, none.begin() + table + 22);
@@ -240,7 +240,7 @@ TEST(Images, OfJpegHaveSoundTables) {
   Bytes unquantised = jpeg();
   unquantised.erase(unquantised.begin() + kQuantisation, unquantised.begin() + kFrame);
   EXPECT_FALSE(is_read(unquantised));
-  Bytes late = jpeg();  // the second scan's
+  Bytes late = jpeg();  // a table for a second scan
   late.insert(late.end() - 2, {0xFF, 0xC4, 0, 20, 0, 200, 200});
   EXPECT_FALSE(is_read(late));
 }
@@ -293,7 +293,7 @@ TEST(Images, OfPngHaveWholeChunks) {
   };
   EXPECT_EQ(reason_of(whole), "");
   Bytes huge = whole;
-  huge[33] = 0x7F;  // the length of IDAT, of 2 GiB
+  huge[33] = 0x7F;  // makes the length of IDAT 2 GiB
   EXPECT_EQ(reason_of(huge), "it is cut off");
   for (std::size_t length = 4; length < whole.size(); ++length) {
     EXPECT_EQ(reason_of(Bytes(whole.begin(), whole.begin() + length)), "it is cut off");
@@ -354,7 +354,7 @@ TEST(Images, AppliesTheTextureTransform) {
         {"scale", {2, 3}},
         {"texCoord", 1}}}};
   const std::vector<Vec2f> uvs = read(b).primitives[0].uvs;
-  // Counter-clockwise as seen, with v down: (1, 0) goes to (0, -1), (0, 1) to (1, 0).
+  // The turn looks counter-clockwise with v down: (1, 0) goes to (0, -1), (0, 1) to (1, 0).
   const std::vector<Vec2f> expected{{10, 18}, {13, 20}, {10, 20}, {13, 18}};
   for (std::size_t i = 0; i < 4; ++i) {
     EXPECT_NEAR(uvs[i].x, expected[i].x, 1e-5);

@@ -105,9 +105,9 @@ TEST(Obj, ReadsColoursOfVertices) {
   const std::vector<Vec3f>& colors = tree.primitives[0].colors;
   ASSERT_EQ(colors.size(), 3u);
   EXPECT_EQ(colors[0].x, 1);
-  EXPECT_NEAR(colors[0].z, 0.214, 1e-3);  // sRGB
+  EXPECT_NEAR(colors[0].z, 0.214, 1e-3);  // the file holds sRGB
   EXPECT_EQ(colors[2], Vec3f(1, 1, 1));
-  // Of some vertices, and what is no colour.
+  // Only some vertices have a colour, or one is not a colour.
   for (const char* second : {"v 1 0 0", "v 1 0 0 1 2 1", "v 1 0 0 1 nan 0", "v 1 0 0 1 1"}) {
     const std::string text = std::string("v 0 0 0 1 0 0\n") + second + "\nv 1 1 0 1 1 1\nf 1 2 3\n";
     EXPECT_TRUE(read_lines(text).primitives[0].colors.empty()) << second;
@@ -120,7 +120,7 @@ TEST(Obj, ReadsNormalsUvsAndRelativeIndices) {
       "f -3/-3/-1 -2/-2/-1 -1/-1/-1\n");
   const Primitive& p = tree.primitives[0];
   EXPECT_EQ(p.positions, (std::vector<Vec3f>{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}));
-  EXPECT_EQ(p.uvs, (std::vector<Vec2f>{{0, 0.75f}, {1, 1}, {1, 0}}));  // v down
+  EXPECT_EQ(p.uvs, (std::vector<Vec2f>{{0, 0.75f}, {1, 1}, {1, 0}}));  // v points down
   EXPECT_EQ(p.normals, std::vector<Vec3f>(3, Vec3f(0, 0, 1)));
   EXPECT_TRUE(read_lines("v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n").primitives[0].uvs.empty());
 }
@@ -177,7 +177,7 @@ TEST(Obj, ReadsMaterialLibraryAndMasks) {
   EXPECT_FLOAT_EQ(tree.materials[1].base_color[3], 0.25f);
 }
 
-/// A folder with an OBJ file of one triangle for each named material, and what it names.
+/// A folder with an OBJ file, which has one triangle for each named material, and its libraries.
 struct ObjFolder {
   TemporaryFolder folder;
 
@@ -185,7 +185,7 @@ struct ObjFolder {
     std::filesystem::create_directories((folder / name).parent_path());
     std::ofstream(folder / name, std::ios::binary) << text;
   }
-  /// As many pixels in a row as there are alphas.
+  /// Writes a row of pixels with these alphas.
   void write_image(const std::string& name, const std::vector<std::uint8_t>& alphas) const {
     std::vector<std::uint8_t> rgba;
     for (const std::uint8_t alpha : alphas) rgba.insert(rgba.end(), {10, 20, 30, alpha});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Skins, morph targets and what is not to be seen, in glTF.
+// Skins, morph targets and invisible things in glTF.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -27,8 +27,8 @@ void expect_at(Vec3d a, Vec3d b) {
   EXPECT_LT(length(a - b), 1e-5) << a.x << ' ' << a.y << ' ' << a.z;
 }
 
-/// A square whose left side hangs on one joint and its right side on another, bound at the origin
-/// and at x = 1; the second has moved up by 3 since and turned by a quarter about z.
+/// A square whose left side follows one joint and whose right side another. They are bound at the
+/// origin and at x = 1; the second has since moved up by 3 and made a quarter turn about z.
 GlbBuilder skinned() {
   GlbBuilder b;
   const int mesh = b.add_mesh("leaves", {square()});
@@ -55,7 +55,7 @@ TEST(Skins, ArePosedByTheirJointsAndNotByTheirNode) {
   expect_at(placed_vertex(tree, 0), {0, 0, 0});
   expect_at(placed_vertex(tree, 3), {0, 1, 0});
   expect_at(placed_vertex(tree, 1), {1, 3, 0});
-  expect_at(placed_vertex(tree, 2), {0, 3, 0});  // (0, 1) of the joint, turned
+  expect_at(placed_vertex(tree, 2), {0, 3, 0});  // at (0, 1) of the turned joint
   EXPECT_TRUE(tree.warnings.empty());
 }
 
@@ -150,7 +150,7 @@ TEST(Morphs, MoveByTheirWeights) {
   expect_at(placed_vertex(read(b), 0), {0, 0, 5});
   b.json["meshes"][0]["weights"] = {0.5, 1};
   expect_at(placed_vertex(read(b), 0), {1, 1, 5});
-  b.json["nodes"][0]["weights"] = {0, 2};  // which win
+  b.json["nodes"][0]["weights"] = {0, 2};  // these override the mesh's
   expect_at(placed_vertex(read(b), 2), {3, 1, 5});
   b.json["nodes"][0]["weights"] = {0, 0};
   expect_at(placed_vertex(read(b), 2), {1, 1, 5});

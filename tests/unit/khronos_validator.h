@@ -13,8 +13,8 @@
 
 namespace leafhull::test {
 
-/// That the Khronos validator finds neither errors nor warnings; skips, loudly, where it is not
-/// there, so it comes last in a test. What it says goes to `log`.
+/// Expects the Khronos validator to find neither errors nor warnings; its output goes to `log`.
+/// Skips the test with a message if the validator is missing, so call it last.
 inline void expect_valid_gltf(const std::vector<std::filesystem::path>& files,
                               const std::filesystem::path& log) {
   std::string command = "'" LEAFHULL_NODE "' '" LEAFHULL_VALIDATE_GLB "' '" LEAFHULL_VALIDATOR "'";

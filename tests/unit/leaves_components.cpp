@@ -25,7 +25,7 @@ void expect_counts(const LeafSet& set, const Expected& expected) {
   EXPECT_EQ(set.dropped_leaves, 0u);
 }
 
-/// Two unit squares that cross in the z axis, each of two halves that share the axis' two vertices.
+/// Two unit squares that cross in the z axis, each in two halves that share the axis' two vertices.
 Primitive crossed_cards() {
   Primitive primitive;
   primitive.positions = {{0, 0, -0.5f},     {0, 0, 0.5f},     {0.5f, 0, -0.5f}, {0.5f, 0, 0.5f},
@@ -38,7 +38,7 @@ Primitive crossed_cards() {
   return primitive;
 }
 
-/// A strip in z of unit length, its cross-section the given points of the x, y plane.
+/// A strip of unit length in z whose cross-section is the given points of the x, y plane.
 Primitive strip(const std::vector<Vec2f>& section) {
   Primitive primitive;
   for (std::uint32_t i = 0; i < section.size(); ++i) {
@@ -55,7 +55,7 @@ Primitive strip(const std::vector<Vec2f>& section) {
 Primitive sphere(int n) {
   Primitive primitive;
   const auto corner = [&](const Vec3d& a, const Vec3d& b, const Vec3d& c, int i, int j) {
-    // Rounding to multiples keeps corners that two faces share bit-equal.
+    // Rounding to multiples keeps corners that two faces share equal to the bit.
     const Vec3d p = normalized(a * double(n - i - j) + b * double(i) + c * double(j));
     const auto round = [](double x) { return static_cast<float>(std::round(x * 4096) / 4096); };
     primitive.positions.push_back({round(p.x), round(p.y), round(p.z)});
@@ -138,7 +138,7 @@ TEST(LeafComponents, DoubledFacesAreOneFlatLeaf) {
 }
 
 TEST(LeafComponents, GentlyBentLeafStaysWhole) {
-  // 20 degrees between the halves.
+  // The halves are at 20 degrees to each other.
   const float rise = std::tan(10 * 3.14159265f / 180);
   expect_counts(find_leaves(tree_of({strip({{-1, rise}, {0, 0}, {1, rise}})}), {}), {1, 6, 0});
 }
@@ -148,7 +148,7 @@ TEST(LeafComponents, SharpFoldIsSplit) {
 }
 
 TEST(LeafComponents, FortyFiveDegreesIsNotSharp) {
-  // Three parts at 45 degrees to each other do not lie flat, and fall into their triangles.
+  // Three parts at 45 degrees to each other are not flat, so they are split into their triangles.
   const float d = std::sqrt(0.5f);
   const Primitive gutter = strip({{-1 - d, d}, {-1, 0}, {0, 0}, {d, d}});
   const Primitive steeper = strip({{-1 - d, 1.1f * d}, {-1, 0}, {0, 0}, {d, 1.1f * d}});

@@ -13,7 +13,7 @@ namespace {
 
 using Random = std::mt19937;
 
-/// Places of leaves in a ball of radius 1.
+/// Positions of leaves in a ball of radius 1.
 std::vector<Vec3d> ball(std::size_t count, Vec3d middle = {}) {
   Random random(5);
   std::uniform_real_distribution<double> any(-1, 1);
@@ -31,7 +31,7 @@ std::vector<Vec3d> joined(std::vector<Vec3d> a, const std::vector<Vec3d>& b) {
   return a;
 }
 
-/// A square of side 0.05 across z as a leaf, with `along` * `along` vertices.
+/// Adds a square leaf across z with `along` * `along` vertices.
 void add_leaf(LeafSet& leaves, Vec3d place, int along = 2, double side = 0.05) {
   for (int i = 0; i < along; ++i) {
     for (int j = 0; j < along; ++j) {
@@ -65,7 +65,7 @@ void expect_no_strays(const LeafSet& leaves) {
   expect_box(crown.box, leaves.bounds);
 }
 
-/// The strays are told, and the crown is to the bit what it is without them.
+/// Expects the strays to be found, and the crown to be the same to the bit as without them.
 void expect_strays(const std::vector<Vec3d>& tree, const std::vector<Vec3d>& strays) {
   const LeafSet all = leaves_at(joined(tree, strays));
   const Crown crown = find_crown(all);
@@ -96,7 +96,7 @@ TEST(Crown, ToldFarStraysByTheirDistance) {
   EXPECT_NEAR(crown.farthest, 20, 0.2);
 }
 
-// Along each axis alone these follow each other closely, from the crown's edge on.
+// Along each single axis these leaves follow each other closely, starting at the crown's edge.
 TEST(Crown, StrewnLeavesAreStrays) {
   Random random(2);
   std::uniform_real_distribution<double> angle(0, 6.28);
@@ -132,7 +132,7 @@ TEST(Crown, HoldsAllOfTwoTreesAndOfARow) {
   expect_no_strays(leaves_at(row));
 }
 
-// Most leaves of a spruce are near the ground, and its top is farther away than the strays' limit.
+// Most leaves of a spruce are near the ground, and its top is farther from them than strays may be.
 TEST(Crown, HoldsALongTip) {
   std::vector<Vec3d> spruce;
   for (const Vec3d p : ball(2000)) {
@@ -153,7 +153,7 @@ TEST(Crown, HoldsABranchThatReachesFarOut) {
 
 TEST(Crown, EndsAtAGapWhereverTheCellsLie) {
   const std::vector<Vec3d> tree = ball(1000);
-  const double length = 1.3;  // of the core, about
+  const double length = 1.3;  // roughly that of the core
   for (int i = 0; i < 12; ++i) {
     const Vec3d twig(1.3 + 0.05 * i, 0, 0);
     expect_no_strays(leaves_at(joined(tree, {twig, twig + Vec3d(0.45 * length, 0, 0)})));
@@ -163,7 +163,7 @@ TEST(Crown, EndsAtAGapWhereverTheCellsLie) {
 
 TEST(Crown, HoldsALeafThatComesNear) {
   LeafSet leaves = leaves_at(ball(1000));
-  add_leaf(leaves, {5, 0, 0}, 2, 8);  // from 1 to 9 along x
+  add_leaf(leaves, {5, 0, 0}, 2, 8);  // reaches from 1 to 9 along x
   expect_no_strays(leaves);
 }
 
@@ -218,10 +218,10 @@ TEST(Crown, WarnsOfStrays) {
   const Box box{{0, 0, 0}, {1, 2, 1}};
   EXPECT_EQ(stray_warning({box, 20, 6.2}),
             "20 leaves lie far from the crown, up to 3.1 times the crown's longest side away; they "
-            "do not count for its size");
+            "do not count towards its size");
   EXPECT_EQ(stray_warning({box, 1, 3}),
             "1 leaf lies far from the crown, 1.5 times the crown's longest side away; it does not "
-            "count for its size");
+            "count towards its size");
 }
 
 TEST(Crown, IsFoundWithTheLeaves) {

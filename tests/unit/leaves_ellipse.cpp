@@ -20,7 +20,7 @@ using test::tree_of;
 
 const double kSqrt3 = std::sqrt(3.);
 
-/// A regular hexagon of circumradius 1 in the x, y plane, fanned from its centre.
+/// A regular hexagon of circumradius 1 in the x, y plane, as a fan around its centre.
 Primitive hexagon() {
   Primitive primitive;
   primitive.positions.push_back({0, 0, 0});
@@ -34,7 +34,7 @@ Primitive hexagon() {
   return primitive;
 }
 
-/// Every vertex of the set has these radii.
+/// Expects every vertex of the set to have these radii.
 void expect_radii(const LeafSet& set, double major, double minor, double tolerance = 1e-6) {
   ASSERT_FALSE(set.vertices.empty());
   for (const LeafVertex& vertex : set.vertices) {
@@ -43,7 +43,7 @@ void expect_radii(const LeafSet& set, double major, double minor, double toleran
   }
 }
 
-/// Every u_j is along `direction`, up to sign.
+/// Expects every u_j to be along `direction`, up to sign.
 void expect_major(const LeafSet& set, const Vec3d& direction, double tolerance = 1e-6) {
   for (const LeafVertex& vertex : set.vertices) {
     EXPECT_NEAR(std::abs(dot(Vec3d(vertex.major), normalized(direction))), 1, tolerance);
@@ -87,8 +87,8 @@ TEST(TriangleEllipse, DoesNotDependOnTheTriangulation) {
   expect_radii(find_leaves(tree_of({uneven}), {}), 2 / kSqrt3, 1 / kSqrt3);
 }
 
-// The unit square sheared by 1 has the covariance (2 1; 1 1) / 12, whose eigenvalues are phi^2/12
-// and 1/(12 phi^2), and phi times x plus y as its first direction.
+// The unit square sheared by 1 has the covariance (2 1; 1 1) / 12. Its eigenvalues are phi^2/12 and
+// 1/(12 phi^2), and its first direction is phi x + y.
 TEST(TriangleEllipse, ShearedInstance) {
   TreeModel tree = tree_of({card(1, 1)});
   tree.instances[0].to_world[0][1] = 1;
@@ -100,7 +100,7 @@ TEST(TriangleEllipse, ShearedInstance) {
 
 TEST(TriangleEllipse, RotatedAndMirroredInstance) {
   TreeModel tree = tree_of({card(2, 1)});
-  // x to -z, y to 2 x, z to y: mirrored, and the height twice as long.
+  // x goes to -z, y to 2 x and z to y: this mirrors the card and doubles its height.
   tree.instances[0].to_world = {{{0, 2, 0, 7}, {0, 0, 1, 8}, {-1, 0, 0, 9}}};
   const LeafSet set = find_leaves(tree, {});
   expect_radii(set, 2 / kSqrt3, 2 / kSqrt3);
@@ -149,7 +149,7 @@ TEST(MaskEllipse, FollowsTheCard) {
   LeafSet set = find_leaves(masked(tree_of({card(1, 1)}), image), {});
   expect_radii(set, 0.4, 0.2, 2e-3);
   expect_major(set, {0, 1, 0});
-  // Wide enough that the other axis becomes the longer one.
+  // The card is so wide that the other axis becomes the longer one.
   set = find_leaves(masked(tree_of({card(4, 1)}), image), {});
   expect_radii(set, 0.8, 0.4, 2e-3);
   expect_major(set, {1, 0, 0});
@@ -170,7 +170,7 @@ TEST(MaskEllipse, ATexelHasAnExtent) {
 }
 
 TEST(MaskEllipse, SlantedMaskOnARotatedCard) {
-  // Along u = v, which runs from the upper left down to the lower right.
+  // The ellipse lies along u = v, which runs from the upper left to the lower right.
   const auto slanted = [](double u, double v) {
     const double along = (u - 0.5 + (v - 0.5)) / std::numbers::sqrt2;
     const double across = (u - 0.5 - (v - 0.5)) / std::numbers::sqrt2;
@@ -184,7 +184,7 @@ TEST(MaskEllipse, SlantedMaskOnARotatedCard) {
   expect_major(find_leaves(tree, {}), {0, 1, -1}, 1e-4);
 }
 
-// The diameters' end points go to space, Eqs. (5), (6): sheared by 1 they are (0.4, 0) and
+// Eqs. (5) and (6) map the diameters' end points to space. Sheared by 1 they are (0.4, 0) and
 // (0.2, 0.2), no longer at right angles, and u_j is along the first.
 TEST(MaskEllipse, ShearedCardKeepsTheDiametersLengths) {
   TreeModel tree =
@@ -203,7 +203,7 @@ TEST(MaskEllipse, OnlyTheLeafsOwnBoxCounts) {
   Primitive right = card(1, 1);
   for (Vec2f& uv : right.uvs) uv.x = 0.5f + uv.x / 2;
   const LeafSet set = find_leaves(masked(tree_of({right}), alpha_image(256, atlas)), {});
-  // The box is half as wide as the card: u counts twice.
+  // The texture's part is half as wide as the card, so u counts twice.
   expect_radii(set, 0.2, 0.2, 5e-3);
 }
 
@@ -218,20 +218,20 @@ LeafSet shifted(float du, float dv, Wrap wrap, const std::function<int(double, d
 
 TEST(MaskEllipse, WrapModes) {
   expect_radii(shifted(3, -2, Wrap::repeat, opaque_inside(0.3, 0.4, 0.2, 0.1)), 0.2, 0.1, 1e-2);
-  // Half a tile on, a disc in quarters at the four corners is whole again.
+  // Shifted by half a tile, the quarters of a disc at the four corners form a whole disc.
   const auto quarters = [](double u, double v) {
     return opaque_inside(0, 0, 0.2, 0.1)(std::min(u, 1 - u), std::min(v, 1 - v));
   };
   expect_radii(shifted(-0.5f, 0.5f, Wrap::repeat, quarters), 0.2, 0.1, 1e-2);
-  // Half a disc and its mirror image make a disc.
+  // Half a disc and its mirror image form a disc.
   const auto half = opaque_inside(1, 0.5, 0.2, 0.1);
   expect_radii(shifted(0.5f, 0, Wrap::mirror, half), 0.2, 0.1, 1e-2);
-  // Beyond the last column that column goes on: a band as high as the disc.
+  // The last column is repeated beyond the border and forms a band as high as the disc.
   expect_radii(shifted(1, 0, Wrap::clamp, half), 1 / kSqrt3, 0.2 / kSqrt3, 2e-2);
 }
 
 TEST(MaskEllipse, CutoffAndBaseColourAlpha) {
-  // 140 inside the small disc, 110 in the ring around it.
+  // The alpha is 140 inside the small disc and 110 in the ring around it.
   const auto rings = [](double u, double v) {
     const double r = std::hypot(u - 0.5, v - 0.5);
     return r <= 0.2 ? 140 : r <= 0.4 ? 110 : 0;
@@ -242,7 +242,7 @@ TEST(MaskEllipse, CutoffAndBaseColourAlpha) {
   expect_radii(find_leaves(tree, {}), 0.4, 0.4, 5e-3);
   tree.materials[0].base_color[3] = 0.8f;
   expect_radii(find_leaves(tree, {}), 0.2, 0.2, 5e-3);
-  // Blending has no cutoff: half counts.
+  // Blending has no cutoff; from one half on, texels count.
   tree.materials[0].alpha_mode = AlphaMode::blend;
   tree.materials[0].base_color[3] = 1;
   expect_radii(find_leaves(tree, {}), 0.2, 0.2, 5e-3);
@@ -252,7 +252,7 @@ TEST(MaskEllipse, CutoffIsInclusive) {
   TreeModel tree = masked(tree_of({card(1, 1)}),
                           alpha_image(64, [](double u, double) { return u < 0.5 ? 255 : 102; }));
   tree.materials[0].alpha_cutoff = 0.4;  // 102 / 255
-  tree.images[0].rgba[3] = 0;            // else there is no mask
+  tree.images[0].rgba[3] = 0;            // otherwise there is no mask
   expect_radii(find_leaves(tree, {}), 1 / kSqrt3, 1 / kSqrt3, 1e-2);
 }
 
@@ -261,7 +261,7 @@ TEST(MaskEllipse, WithoutAMaskTheTrianglesDecide) {
   const TreeModel cut = masked(tree_of({card(2, 1)}), alpha_image(64, disc));
   expect_radii(find_leaves(cut, {}), 0.4, 0.2, 3e-2);
 
-  TreeModel opaque = cut;  // though its image has holes
+  TreeModel opaque = cut;  // its image still has holes
   opaque.materials[0].alpha_mode = AlphaMode::opaque;
   const LeafSet said = find_leaves(opaque, {});
   expect_radii(said, 0.4, 0.2, 3e-2);
@@ -314,7 +314,7 @@ TEST(MaskEllipse, MirroredBackFacesDoNotSpoilTheMap) {
 }
 
 TEST(MaskEllipse, TextureThatDoesNotLieFlatSplitsTheLeaf) {
-  // Four corners in a plane, one of whose texture coordinates is far off an affine map.
+  // Four corners in a plane; the texture coordinates of one are far from an affine map.
   Primitive leaf = card(1, 1);
   leaf.uvs[2] = {0.1f, 0.9f};
   const auto disc = opaque_inside(0.5, 0.5, 0.4, 0.4);

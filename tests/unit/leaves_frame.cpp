@@ -11,7 +11,7 @@ namespace {
 using test::card;
 using test::tree_of;
 
-/// The vertex of a set at a position.
+/// The vertex of the set at that position.
 LeafVertex at(const LeafSet& set, const Vec3d& position) {
   for (const LeafVertex& vertex : set.vertices) {
     if (length(vertex.position - position) < 1e-6) return vertex;
@@ -20,13 +20,13 @@ LeafVertex at(const LeafSet& set, const Vec3d& position) {
   return {};
 }
 
-/// The two agree up to sign.
+/// Expects the two to agree up to sign.
 void expect_axis(const Vec3f& axis, const Vec3d& expected) {
   EXPECT_NEAR(std::abs(dot(Vec3d(axis), normalized(expected))), 1, 1e-6)
       << axis.x << " " << axis.y << " " << axis.z;
 }
 
-/// Sound frames: unit, orthogonal, R_u >= R_v > 0.
+/// Expects unit, orthogonal axes and R_u >= R_v > 0.
 void expect_frames(const LeafSet& set) {
   for (const LeafVertex& vertex : set.vertices) {
     EXPECT_NEAR(length(vertex.normal), 1, 1e-6);
@@ -53,7 +53,7 @@ TEST(LeafFrame, StoredNormalsTurnTheFrame) {
 }
 
 TEST(LeafFrame, MeanOfTheDistinctNormalsTakenUpToSign) {
-  // At one corner (0.6, 0, 0.8) in front and behind, and (0, 0, 1): each counts once.
+  // One corner has the normal (0.6, 0, 0.8) on both sides and (0, 0, 1); each counts once.
   Primitive leaf = card(2, 1);
   leaf.normals.assign(4, {0, 0, 1});
   leaf.normals[2] = {0.6f, 0, 0.8f};
@@ -82,8 +82,8 @@ TEST(LeafFrame, NormalsGoByTheInverseTranspose) {
   for (const LeafVertex& vertex : set.vertices) expect_axis(vertex.normal, {-0.3, 0, 0.8});
 }
 
-// A shallow gutter along y, a unit square to the right and half of one to the left; however the
-// triangles are wound.
+// A shallow gutter along y: a unit square on the right and half of one on the left. The winding of
+// the triangles does not matter.
 TEST(LeafFrame, WithoutNormalsTheFacesDecideByArea) {
   Primitive leaf;
   leaf.positions = {{0, 0, 0}, {0, 1, 0}, {1, 0, 0.1f}, {1, 1, 0.1f}, {-1, 0, 0.1f}};
@@ -96,7 +96,7 @@ TEST(LeafFrame, WithoutNormalsTheFacesDecideByArea) {
     expect_frames(set);
     expect_axis(at(set, {1, 0, 0.1f}).normal, {-0.1f, 0, 1});
     expect_axis(at(set, {-1, 0, 0.1f}).normal, {0.1f, 0, 1});
-    // Two of the three triangles at the origin belong to the right side, one of two at (0, 1, 0).
+    // The right side has two of the three triangles at the origin and one of two at (0, 1, 0).
     expect_axis(at(set, {0, 0, 0}).normal, {-0.1f, 0, 3});
     expect_axis(at(set, {0, 1, 0}).normal, {0, 0, 1});
   }
@@ -119,7 +119,7 @@ TEST(LeafFrame, NormalAlongTheMajorAxis) {
   const LeafSet set = find_leaves(tree_of({leaf}), {});
   ASSERT_EQ(set.vertices.size(), 4u);
   expect_frames(set);
-  // The minor axis stays v, so u is what is left.
+  // The minor axis stays v, so u is the remaining direction.
   for (const LeafVertex& vertex : set.vertices) {
     expect_axis(vertex.normal, {1, 0, 0});
     expect_axis(vertex.major, {0, 0, 1});

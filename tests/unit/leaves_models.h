@@ -10,7 +10,7 @@
 
 namespace leafhull::test {
 
-/// Four corners in a ring as two triangles.
+/// Adds two triangles between four corners in a ring.
 inline void add_quad(Primitive& primitive, const std::array<Vec3f, 4>& corners) {
   const auto first = static_cast<std::uint32_t>(primitive.positions.size());
   primitive.positions.insert(primitive.positions.end(), corners.begin(), corners.end());
@@ -18,8 +18,8 @@ inline void add_quad(Primitive& primitive, const std::array<Vec3f, 4>& corners) 
   primitive.triangles.push_back({first, first + 2, first + 3});
 }
 
-/// width x height about the origin of the x, y plane, facing +z, its texture coordinates the unit
-/// square with v down.
+/// A card of width x height around the origin in the x, y plane, facing +z. Its texture coordinates
+/// are the unit square with v down.
 inline Primitive card(float width, float height) {
   Primitive primitive;
   const float x = width / 2;
@@ -29,13 +29,13 @@ inline Primitive card(float width, float height) {
   return primitive;
 }
 
-/// The triangles again with the winding reversed, over the same vertices.
+/// Adds the same triangles with reversed winding, over the same vertices.
 inline void add_back_faces(Primitive& primitive) {
   const auto front = primitive.triangles;
   for (const auto& [a, b, c] : front) primitive.triangles.push_back({a, c, b});
 }
 
-/// A model whose one material is called "leaf"; each primitive is placed once where it is.
+/// A model with one material "leaf"; each primitive is placed once, untransformed.
 inline TreeModel tree_of(std::vector<Primitive> primitives) {
   TreeModel tree;
   tree.materials.push_back({.name = "leaf"});
@@ -47,7 +47,7 @@ inline TreeModel tree_of(std::vector<Primitive> primitives) {
   return tree;
 }
 
-/// A square image whose alpha at the texel centre (u, v) is given, 0 to 255.
+/// A square image; `alpha` gives the alpha, 0 to 255, at a texel's centre (u, v).
 inline Image alpha_image(int size, const std::function<int(double, double)>& alpha) {
   Image image{size, size, {}};
   for (int y = 0; y < size; ++y) {

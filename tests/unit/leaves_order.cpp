@@ -26,7 +26,7 @@ Vec3f random_point(Random& random, float extent) {
   return {x, y, any(random)};
 }
 
-/// Slanted cards with normals and texture coordinates, some of them crumpled enough to be split.
+/// Slanted cards with normals and texture coordinates; some are crumpled enough to be split.
 Primitive crown(Random& random, int leaves) {
   Primitive primitive;
   for (int i = 0; i < leaves; ++i) {
@@ -49,7 +49,7 @@ TreeModel crowns(Random& random) {
                       test::alpha_image(32, test::opaque_inside(0.5, 0.5, 0.4, 0.3)));
 }
 
-/// Every corner gets a vertex of its own.
+/// Gives every corner its own vertex.
 void split_vertices(Primitive& primitive) {
   Primitive split;
   split.mesh_name = primitive.mesh_name;
@@ -98,7 +98,7 @@ void reverse_primitives(TreeModel& tree) {
   }
 }
 
-/// Exactly equal, field by field.
+/// Expects the sets to be exactly equal, field by field.
 void expect_equal(const LeafSet& a, const LeafSet& b) {
   EXPECT_EQ(a.leaf_count, b.leaf_count);
   EXPECT_EQ(a.dropped_leaves, b.dropped_leaves);
@@ -142,7 +142,7 @@ TEST_P(LeafOrder, HowTheFileStoresTheLeavesChangesNoBit) {
   expect_equal(find_leaves(reversed, {}), expected);
 }
 
-/// The quads of a crown, so many a primitive.
+/// Cuts a crown into primitives of this many quads.
 std::vector<Primitive> cut_up(const Primitive& whole, std::size_t leaves) {
   std::vector<Primitive> parts;
   for (std::size_t first = 0; first < whole.positions.size(); first += 4) {
@@ -178,7 +178,7 @@ void expect_equal_sheets(const LeafSheets& a, const LeafSheets& b) {
   }
 }
 
-// More than are collected at a time, by more than one thread.
+// There are more leaves than are collected at a time, by several threads.
 TEST(LeafOrder, ManyLeavesInOnePrimitiveOrInSeveralAreTheSame) {
   Random random(9);
   const Primitive whole = crown(random, 20'000);
@@ -209,7 +209,7 @@ Primitive balls(Random& random, int count) {
   return primitive;
 }
 
-// Textured leaves, of which some are split, and solids, more than are collected at a time.
+// There are more leaves (textured, some of them split) and solids than are collected at a time.
 TEST(LeafOrder, ThreadsDoNotShow) {
   Random random(11);
   const TreeModel tree =
@@ -228,7 +228,7 @@ TEST(LeafOrder, ThreadsDoNotShow) {
   }
 }
 
-// The leaves of a frame are found by what was chosen in another.
+// The leaves of one frame are found with the choice made in another.
 TEST(LeafOrder, VerticesThatHaveMovedAreWeldedAnew) {
   Random random(7);
   const TreeModel rest = tree_of({crown(random, 50)});
@@ -237,7 +237,7 @@ TEST(LeafOrder, VerticesThatHaveMovedAreWeldedAnew) {
   std::vector<Vec3f>& positions = moved.primitives[0].positions;
   for (std::size_t i = 0; i < positions.size(); i += 8) positions[i] = positions[(i + 4) % 200];
   expect_equal(find_leaves(moved, choice, {}), find_leaves(moved, {}));
-  positions.push_back({0, 0, 20});  // and one more than was welded
+  positions.push_back({0, 0, 20});  // one more vertex than was welded
   moved.primitives[0].normals.push_back({0, 0, 1});
   moved.primitives[0].uvs.push_back({0, 0});
   expect_equal(find_leaves(moved, choice, {}), find_leaves(moved, {}));
@@ -245,7 +245,7 @@ TEST(LeafOrder, VerticesThatHaveMovedAreWeldedAnew) {
 
 INSTANTIATE_TEST_SUITE_P(Seeds, LeafOrder, ::testing::Values(1u, 2u, 3u, 4u));
 
-// Neighbouring squares of one size have corners that agree in everything but the leaf.
+// Neighbouring squares of one size share corners that differ only in the leaf.
 TEST(LeafOrder, LeavesThatShareEqualVerticesKeepTheirNumbers) {
   std::vector<Primitive> squares;
   for (int i = 0; i < 4; ++i) {
@@ -276,12 +276,11 @@ TEST(LeafOrder, NumbersGoByFirstAppearance) {
   EXPECT_EQ(next, set.leaf_count);
 }
 
-// In a box from 0 to 1 the eight corners of a cube come with x fastest and z slowest.
 TEST(LeafOrder, ALeafIsKnownByItsPlaceInTheFileWhereverItMoves) {
   Random random(3);
   TreeModel tree = tree_of({crown(random, 60)});
   const auto places = [&] {
-    // By their place in the file: a leaf's corner.
+    // A corner of each leaf, in the order of the file.
     LeafOptions every;
     every.globs = {"*"};
     const LeafSet leaves = find_leaves(tree, every);
@@ -294,7 +293,7 @@ TEST(LeafOrder, ALeafIsKnownByItsPlaceInTheFileWhereverItMoves) {
     return lowest;
   };
   const std::vector<Vec3d> before = places();
-  // Turned upside down, the leaves are sorted quite differently.
+  // Upside down, the leaves are sorted quite differently.
   for (Instance& instance : tree.instances) {
     for (double& value : instance.to_world[1]) value = -value;
   }
@@ -305,6 +304,7 @@ TEST(LeafOrder, ALeafIsKnownByItsPlaceInTheFileWhereverItMoves) {
   }
 }
 
+// The eight corners of a unit cube come in an order with x fastest and z slowest.
 TEST(LeafOrder, FollowsTheMortonCurve) {
   Primitive corners;
   for (int i = 7; i >= 0; --i) {

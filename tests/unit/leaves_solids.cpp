@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which components enclose something.
+// Which components enclose a volume.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -21,7 +21,7 @@ using test::add_quad;
 using test::card;
 using test::tree_of;
 
-/// The closed surface of a primitive that is one component.
+/// The closed surface of a primitive that has one component.
 std::vector<EigenTriangle> closed(const Primitive& primitive) {
   const WeldedMesh mesh = weld(primitive, weld_positions(primitive));
   const FaceGroups components = connected_components(mesh);
@@ -31,7 +31,7 @@ std::vector<EigenTriangle> closed(const Primitive& primitive) {
   return closed_surface(component);
 }
 
-/// With the sign of its winding: positive where it looks outward.
+/// The volume; it is positive if the triangles face outward.
 double volume(const std::vector<EigenTriangle>& triangles) {
   double sum = 0;
   for (const auto& [a, b, c] : triangles) sum += a.dot(b.cross(c));
@@ -44,7 +44,7 @@ double area(const std::vector<EigenTriangle>& triangles) {
   return sum;
 }
 
-/// A box, its faces outward.
+/// A box whose faces look outward.
 Primitive box(Vec3f low, Vec3f high) {
   Primitive p;
   const auto at = [&](int i) {
@@ -69,7 +69,7 @@ void append(Primitive& to, const Primitive& more) {
   }
 }
 
-/// The part of a sphere of radius 2 from its top down to the height `foot`, open there.
+/// The part of a sphere of radius 2 from its top down to the height `foot`, where it is open.
 Primitive dome(double foot) {
   constexpr int kAround = 24, kDown = 12;
   Primitive p;
@@ -94,7 +94,7 @@ Primitive dome(double foot) {
   return p;
 }
 
-/// Below the top of such a sphere down to that height.
+/// The volume of such a sphere from its top down to the height `foot`.
 double cap_volume(double foot) {
   const double height = 2 - foot;
   return std::numbers::pi * height * height * (6 - height) / 3;
@@ -120,7 +120,7 @@ TEST(ClosedSurface, CountsFrontAndBackOnce) {
   EXPECT_EQ(once.size(), 12u);
   EXPECT_DOUBLE_EQ(area(once), 24);
   EXPECT_DOUBLE_EQ(std::abs(volume(once)), 8);
-  // And where they are vertices of their own, as exporters write them.
+  // Exporters may write separate vertices for the back faces.
   Primitive stored = box({-1, -1, -1}, {1, 1, 1});
   Primitive back = stored;
   for (auto& [a, b, c] : back.triangles) std::swap(b, c);
@@ -166,7 +166,7 @@ TEST(ClosedSurface, OfABoxWithoutALidIsTheBox) {
 
 TEST(ClosedSurface, OfATubeHasTwoCones) {
   Primitive tube = box({-1, -1, -2}, {1, 1, 2});
-  // Without the faces at its ends, which are the last pair and the one before.
+  // Removes the faces at both ends.
   std::erase_if(tube.triangles, [&](const auto& t) {
     const float z = tube.positions[t[0]].z;
     return tube.positions[t[1]].z == z && tube.positions[t[2]].z == z;

@@ -14,14 +14,14 @@
 namespace leafhull {
 namespace {
 
-/// An ellipse in fractions of a card's sides, from the upper left corner: right and down.
+/// An ellipse in fractions of a card's sides, measured right and down from the upper left corner.
 struct CardEllipse {
   Vec2d major, minor;
 };
 
-/// Two standard deviations along the principal directions of the texels that are kept, for a card
-/// that shows the whole image once. The angle of a covariance's first axis is
-/// atan2(2 cov(u, v), var(u) - var(v)) / 2.
+/// Two standard deviations of the kept texels along their principal directions, for a card that
+/// shows the whole image once. The angle of a covariance's first axis is atan2(2 cov(u, v), var(u)
+/// - var(v)) / 2.
 CardEllipse ellipse_of_mask(const Image& image, double cutoff) {
   double count = 0, u = 0, v = 0, uu = 0, uv = 0, vv = 0;
   for (int y = 0; y < image.height; ++y) {
@@ -50,7 +50,7 @@ CardEllipse ellipse_of_mask(const Image& image, double cutoff) {
 
 class Ash : public ::testing::Test {
  protected:
-  /// A card's sides from the upper left corner.
+  /// The sides of a card from its upper left corner.
   struct Card {
     Vec3d right, down;
   };
@@ -106,8 +106,8 @@ TEST_F(Ash, EllipseFollowsTheBranchletInTheTexture) {
   }
 }
 
-// The branchlet fills the card neither in width nor in height, and is longer than wide where the
-// card is square: the card's own ellipse would have two half axes of 1 / sqrt 3 of its side.
+// The branchlet does not fill the square card and is longer than wide. The ellipse of the whole
+// card would have two half axes of 1 / sqrt 3 of its side.
 TEST_F(Ash, EllipseIsNotTheCards) {
   const std::vector<Card> cards = cards_of_vertices();
   for (std::size_t i = 0; i < leaves_.vertices.size(); ++i) {
@@ -125,8 +125,8 @@ struct SharedTree {
 
 class SharedTrees : public ::testing::TestWithParam<SharedTree> {};
 
-// Leaves of one primitive that happen to share a position and lie in one plane are one: `touching`
-// is how many vertices that may cost at most.
+// Leaves of one primitive that share a position and lie in one plane become one leaf. This may cost
+// at most `touching` vertices.
 TEST_P(SharedTrees, LeavesAreFound) {
   const auto& [file, leaves, vertices, touching] = GetParam();
   const std::filesystem::path path = std::filesystem::path(LEAFHULL_SHARED_TREES) / file;

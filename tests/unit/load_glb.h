@@ -8,7 +8,7 @@
 
 namespace leafhull::test {
 
-/// A GLB that tinygltf reads without a word.
+/// Reads a GLB; expects tinygltf to report no error and no warning.
 inline tinygltf::Model load_glb(const std::string& bytes) {
   tinygltf::Model model;
   std::string error, warning;

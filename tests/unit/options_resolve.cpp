@@ -19,7 +19,7 @@ Options styled(Style style) {
   return resolve(options);
 }
 
-/// The message with the remedy of the usage error that `options` must end in.
+/// Expects a usage error from `options`; returns its message and remedy.
 std::string refusal(const Options& options) {
   try {
     resolve(options);
@@ -335,7 +335,7 @@ TEST(Contradictions, BandUpsideDownInPercent) {
   expect_words(refusal(options), {"--band-high 50%", "--band-low 60%"});
   options.band_high_percent = 60;
   EXPECT_NO_THROW(resolve(options));
-  // A style's own end counts, too.
+  // An end of the band that comes from the style counts too.
   options = {};
   options.style = Style::thin;
   options.band_low_percent = 81;

@@ -81,7 +81,7 @@ TEST(OptionRows, SpellTheFlags) {
   EXPECT_EQ(line_of(render_table(), "figure17").value, "") << "a flag that a word may follow";
 }
 
-/// The usage error that `change` of the options makes; empty where they are taken.
+/// The usage error that `change` of the options causes; empty if they are accepted.
 std::string forest_refusal(const std::function<void(ForestOptions&)>& change) {
   ForestOptions options;
   change(options);
@@ -107,7 +107,7 @@ TEST(ForestOptions, BoundsOfTheTableAreKept) {
     EXPECT_EQ(forest_refusal([=](auto& o) { o.tile = tile; }), "");
   }
   EXPECT_EQ(forest_refusal([](auto& o) { o.tile = 100; }),
-            "--tile 100 is no multiple of 32. Give 96 or 128.");
+            "--tile 100 is not a multiple of 32. Give 96 or 128.");
   EXPECT_NE(forest_refusal([](auto& o) { o.tile = 544; }), "");
   EXPECT_NE(forest_refusal([](auto& o) { o.memory = {1 << 20}; }), "");
   EXPECT_EQ(forest_refusal([](auto& o) { o.memory = {512 << 20}; }), "");

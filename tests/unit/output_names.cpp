@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 class OutputNames : public ::testing::Test {
  protected:
-  /// What is wrong with the names; empty where nothing is.
+  /// The error that the names cause; empty if they are accepted.
   std::string complaint(const OutputFiles& files, ErrorCode code) {
     try {
       plan_outputs(files, input_);
@@ -131,7 +131,7 @@ TEST_F(OutputNames, SaysThatAFolderOrFileIsReadOnly) {
   EXPECT_FALSE(holds_unprivileged([&] { return is_denied(folder_ / "new.glb"); }));
 }
 
-/// What is wrong with a folder for results; empty where nothing is.
+/// The error that a folder for results causes; empty if it is accepted.
 std::string complaint_of(const fs::path& folder) {
   try {
     check_output_folder(folder);

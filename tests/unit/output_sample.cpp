@@ -6,7 +6,7 @@
 
 namespace leafhull {
 
-// Stands in for the engine's: three samples on a lattice of 0.25.
+// Replaces the function of the surface room: three samples on a lattice of 0.25.
 openvdb::FloatGrid::Ptr density_grid(const Field& field) {
   openvdb::FloatGrid::Ptr grid = openvdb::FloatGrid::create(0.0f);
   grid->setName("density");

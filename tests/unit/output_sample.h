@@ -35,7 +35,7 @@ std::string written(Writer&& writer) {
   return stream.str();
 }
 
-/// A value of type T out of a file's bytes, moving on behind it.
+/// Reads a value of type T from a file's bytes and moves `offset` past it.
 template <class T>
 T take(const std::string& bytes, std::size_t& offset) {
   T value;
@@ -45,8 +45,8 @@ T take(const std::string& bytes, std::size_t& offset) {
   return value;
 }
 
-/// A closed sphere of radius 2: `rings` times `2 * rings` quads, the poles closed by fans. Its
-/// normals are a little too long, as rounded ones are.
+/// A closed sphere of radius 2 from `rings` times `2 * rings` quads and a fan at each pole. Its
+/// normals are a little too long, like rounded ones.
 inline Mesh sphere(int rings, Vec3d origin = {}) {
   Mesh mesh;
   mesh.origin = origin;

@@ -58,7 +58,7 @@ TEST(Transaction, LeavesNothingWithoutACommit) {
   EXPECT_EQ(read_file(folder / "old"), "old");
 }
 
-// Every file is complete when the last rename finds its file gone.
+// The last rename fails because its temporary file is gone; all files are complete by then.
 TEST(Transaction, PutsBackWhatItHadReplaced) {
   const TemporaryFolder folder;
   write_file(folder / "old", "old");
@@ -169,7 +169,7 @@ TEST(Transaction, RefusesMoreFilesThanItCanDiscard) {
   EXPECT_THROW(write_many(), Error);
 }
 
-/// Exit code and message of a write in a process whose files may not exceed 4 KiB.
+/// The exit code and message of a write in a process whose files may not exceed 4 KiB.
 std::string failure_with_small_files(const OutputFiles& files, const Shape& shape) {
   int channel[2];
   EXPECT_EQ(::pipe(channel), 0);
@@ -202,7 +202,7 @@ TEST(Outputs, AreAllWrittenOrNone) {
   const OutputFiles files{.shapes = {folder / "shape.glb", folder / "shape.obj"},
                           .kernels = folder / "kernels.ply",
                           .report = folder / "report.json"};
-  // The GLB and the kernels would fit, the OBJ does not.
+  // The GLB and the kernels would fit, but the OBJ does not.
   EXPECT_EQ(failure_with_small_files(files, sample_shape()),
             "5 cannot write " + (folder / "shape.obj").string() + ": File too large");
   EXPECT_EQ(folder.names(), Names{"kernels.ply"});

@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 using Paths = std::vector<fs::path>;
 
-/// PATH without anything, as long as it lives.
+/// Hides all programs while it lives.
 class NoPrograms {
  public:
   NoPrograms() { setenv("PATH", "/nonexistent", 1); }
@@ -163,7 +163,7 @@ TEST_F(Films, LeaveNothingUnlessFinished) {
 }
 
 TEST_F(Films, SayWhyTheyFail) {
-  Film film(folder_ / "a.mp4", 0, 0, 12);  // no video has that size
+  Film film(folder_ / "a.mp4", 0, 0, 12);  // a video cannot have this size
   try {
     for (int i = 0; i < 1000; ++i) film.add(frame(64, 64, 9));
     film.finish();

@@ -43,7 +43,7 @@ Device& device() {
   return opened;
 }
 
-/// Two from its front face, which then fills half of the picture's height.
+/// A camera at distance 2 from the front face, which then fills half of the picture's height.
 PictureOptions facing_the_cube(int width, int height) {
   PictureOptions options;
   options.width = width, options.height = height;
@@ -151,7 +151,7 @@ TEST(Drawing, RefusesNoSubjectAndTheBuffersOfTwo) {
 }
 
 TEST(Strokes, AreLeavesInPixels) {
-  Subject::Parts parts;  // a scene that is the model's space
+  Subject::Parts parts;  // the scene's space is the model's
   parts.leaves = {{{0, 0, 0}, {1, 0, 0}, {0, 0.5f, 0}, 7},
                   {{2, 1, 0}, {0, 0, 0.1f}, {0.1f, 0, 0}, 8},
                   {{0, 0, 5}, {1, 0, 0}, {0, 1, 0}, 9}};
@@ -227,7 +227,7 @@ TEST_F(Trees, DirectAndMeshSeeTheSame) {
   EXPECT_GT(wood, 100u);
 }
 
-/// Leaves of the tree, by a rule.
+/// The tree with its leaves coloured by a rule.
 std::shared_ptr<TreeModel> painted(const TreeModel& tree, const LeafSet& leaves,
                                    Vec3f (*colour)(Vec3f position)) {
   auto model = std::make_shared<TreeModel>(tree);

@@ -23,7 +23,7 @@ class Cameras : public testing::Test {
     return write("camera.glb", {reinterpret_cast<const char*>(glb.data()), glb.size()});
   }
 
-  /// One clear line that names the file and holds `part`.
+  /// Expects an error of one line that names the file and holds `part`.
   void expect_error(const std::filesystem::path& file, const std::string& part) {
     try {
       read_view(file);
@@ -94,7 +94,7 @@ const nlohmann::json kPerspective = {{"type", "perspective"},
 
 TEST_F(Cameras, FollowTheirNodes) {
   GlbBuilder builder = with_camera(kPerspective);
-  // A quarter turn about y: what looked along -z looks along -x. Its parent moves and enlarges it.
+  // After a quarter turn about y the camera looks along -x. Its parent moves and enlarges it.
   builder.add("nodes", {{"camera", 0},
                         {"translation", {1, 0, 0}},
                         {"rotation", {0, std::sqrt(0.5), 0, std::sqrt(0.5)}}});
@@ -108,7 +108,7 @@ TEST_F(Cameras, FollowTheirNodes) {
 }
 
 TEST_F(Cameras, OfAGltfFileMustBeUsable) {
-  expect_error(write(with_camera(kPerspective)), "no perspective camera");  // no node has it
+  expect_error(write(with_camera(kPerspective)), "no perspective camera");  // no node uses it
   GlbBuilder flat = with_camera({{"type", "orthographic"}, {"orthographic", {{"xmag", 1}}}});
   flat.add_node("camera", -1, {{"camera", 0}});
   expect_error(write(flat), "no perspective camera");

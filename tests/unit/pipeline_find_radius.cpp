@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The search for R_max on functions that are known.
+// The search for R_max, on known functions.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -20,7 +20,7 @@ struct Search {
   std::size_t calls;
 };
 
-/// What must hold of every search.
+/// Searches for R_max and checks what must hold for every search.
 Search search(double wanted, double start, const Dilation& dilation) {
   std::set<double> radii;
   double nearest = HUGE_VAL;
@@ -41,12 +41,12 @@ Search search(double wanted, double start, const Dilation& dilation) {
   return {found, calls};
 }
 
-/// Rises by `slope` where the radius grows e-fold, from 0.1.
+/// Rises from 0.1, by `slope` for each factor e of the radius.
 Dilation rising(double slope) {
   return [=](double radius) { return 0.1 + slope * std::log(radius / kSmallestRadiusMax); };
 }
 
-/// Rises to 0.5 at a radius of `top` and falls beyond, to 0.3 or less for 4.
+/// Rises to 0.5 at a radius of `top` and falls beyond; for a `top` of 4 to 0.3 or less.
 Dilation peaked(double top) {
   return [=](double radius) {
     const double x = std::log(radius / top);
@@ -99,7 +99,7 @@ TEST(FindRadius, IsNotMisledByTheLatticesNoise) {
 }
 
 TEST(FindRadius, OnABendIsNotStuckAtOneEnd) {
-  // Flat at first and then steep, and the other way round.
+  // The function is flat at first and then steep, or the other way round.
   for (const double power : {0.5, 5.0, 10.0}) {
     const auto bent = [=](double radius) {
       const double x = std::log(radius / kSmallestRadiusMax);

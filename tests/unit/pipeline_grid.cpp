@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The grid of a tree, and the memory that its field would take.
+// The grid of a tree, and the memory that its field would need.
 #include <gtest/gtest.h>
 
 #include <memory>
@@ -42,7 +42,7 @@ TEST(Grid, ItsResolutionIsTheNearestWholeNumber) {
   EXPECT_EQ(grid_of(ten_long(), with_voxels(0.65)).resolution, 18) << "18.46";
 }
 
-/// One kernel, and the samples that its whole support takes.
+/// One kernel with samples for its whole support.
 struct OneKernel {
   std::vector<Kernel> kernels{{{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, 1, 1, 1}};
   Grid grid{.radius_max = 1, .voxel_size = 0.05, .resolution = 40, .lattice = {}};
@@ -65,7 +65,7 @@ struct OneKernel {
   }
 };
 
-// Measured: 23 bytes a sample.
+// A sample takes 23 bytes, as measured.
 TEST(FieldMemory, IsToldBeforeItIsTaken) {
   const OneKernel one;
   const double samples = one.samples();

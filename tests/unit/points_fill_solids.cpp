@@ -27,7 +27,7 @@ using test::layers_at;
 
 using Triangles = std::vector<std::array<Vec3d, 3>>;
 
-/// With a leaf area of half its surface.
+/// A solid whose leaf area is half its surface.
 LeafSolid solid_of(Triangles triangles) {
   LeafSolid solid;
   double sixfold = 0;
@@ -48,7 +48,7 @@ Triangles triangles_of(const Primitive& p) {
   return triangles;
 }
 
-/// Six quads around a centre, of half this edge to each side.
+/// A box of this edge around a centre.
 Triangles box(Vec3d centre, Vec3d edge) {
   const Vec3d half[] = {{edge.x / 2, 0, 0}, {0, edge.y / 2, 0}, {0, 0, edge.z / 2}};
   Triangles triangles;
@@ -64,7 +64,7 @@ Triangles box(Vec3d centre, Vec3d edge) {
 }
 Triangles cube(double edge, Vec3d centre = {}) { return box(centre, {edge, edge, edge}); }
 
-/// 80 faces in a ball of radius 2, away from any plane of the lattice.
+/// 80 faces in a ball of radius 2; none lies in a plane of the lattice.
 Triangles ball() {
   Triangles triangles = triangles_of(test::closed_sphere().primitives[0]);
   for (auto& corners : triangles) {
@@ -85,7 +85,7 @@ Vec3d centre_of(const std::vector<LeafPoint>& points) {
 double volume_of_cell(double radius) { return std::pow(0.28 * radius, 3); }
 
 TEST(IsFilled, WhatIsThickerThanHalfOfAKernel) {
-  // A plate of volume V and surface S is 2 V / S thick: a third of a cube's edge.
+  // A plate of volume V and surface S is 2 V / S thick; for a cube, that is a third of its edge.
   const LeafSolid solid = solid_of(cube(3));
   EXPECT_NEAR(solid.thickness(), 1, 1e-12);
   EXPECT_TRUE(is_filled(solid, 1.99));
@@ -133,7 +133,7 @@ TEST(Fill, LeavesAHollowEmpty) {
   solid.volume = 6 * 6 * 6 - 3 * 3 * 3;
   const std::vector<LeafPoint> points = fill(solid, 0.5);
   EXPECT_NEAR(static_cast<double>(points.size()) * volume_of_cell(0.5) / solid.volume, 1, 0.35);
-  // Cells that the corners of the hollow lie in may have their middle within.
+  // Cells at the hollow's walls may have their middle inside the hollow.
   for (const LeafPoint& p : points) {
     const auto [x, y, z] = p.position;
     EXPECT_GT(std::max({std::abs(x), std::abs(y), std::abs(z)}), 1.5 - 0.28 * 0.5);
@@ -145,7 +145,7 @@ TEST(Fill, TakesTheCellsThatASolidMeets) {
   const std::vector<LeafPoint> points = fill(solid_of(cube(10)), 1);
   EXPECT_GE(points.size(), 35u * 35 * 35);
   EXPECT_LE(points.size(), 37u * 37 * 37);
-  // As many for a cube and a kernel of half the size.
+  // A cube and a kernel of half the size give as many points.
   const std::vector<LeafPoint> half = fill(solid_of(cube(5)), 0.5);
   EXPECT_EQ(half.size(), points.size());
 }
@@ -158,7 +158,7 @@ TEST(Fill, JoinsWhatLiesDeepInALargeOne) {
   EXPECT_GT(static_cast<double>(points.size()), 0.5 * cells);
   EXPECT_NEAR(area_of(points) / solid.area, 1, 1e-9);
   EXPECT_LT(length(centre_of(points)), 0.02);
-  // Near the surface, whence no kernel of what is joined is seen, each cell has its point.
+  // Near the surface, out of reach of the joined points' kernels, each cell has its own point.
   const double cell = solid.area * volume_of_cell(1) / solid.volume;
   for (const LeafPoint& p : points) {
     const auto [x, y, z] = p.position;
@@ -168,7 +168,7 @@ TEST(Fill, JoinsWhatLiesDeepInALargeOne) {
 }
 
 TEST(Fill, OfWholeCellsIsTheirMiddles) {
-  // Lines of samples run along the diagonals of the faces.
+  // Lines of samples run along the faces' diagonals.
   const double radius = 4 / 0.28;
   const std::vector<LeafPoint> points = fill(solid_of(cube(8, {4, -4, 4})), radius);
   ASSERT_EQ(points.size(), 8u);
@@ -181,7 +181,7 @@ TEST(Fill, OfWholeCellsIsTheirMiddles) {
 }
 
 TEST(Fill, IsCompleteWhereLinesRunAlongFacesAndEdges) {
-  // Samples are at halves: lines lie in four of the faces.
+  // Samples lie at halves, so lines run in four of the faces.
   const double radius = 4 / 0.28;
   const LeafSolid solid = solid_of(cube(16, {0.5, 0.5, 0.5}));
   const std::vector<LeafPoint> points = fill(solid, radius);
@@ -191,7 +191,7 @@ TEST(Fill, IsCompleteWhereLinesRunAlongFacesAndEdges) {
   const auto whole =
       std::ranges::count_if(points, [&](const LeafPoint& p) { return p.area > most * 0.999; });
   EXPECT_GE(whole, 3 * 3 * 3);
-  // No line is filled beyond the cube, which holds 16 or 17 samples either way.
+  // No line is filled beyond the cube, which holds 16 or 17 samples along each axis.
   EXPECT_GE(solid.area / most * 64, std::pow(16, 3) - 1e-6);
   EXPECT_LE(solid.area / most * 64, std::pow(17, 3) + 1e-6);
   for (const LeafPoint& p : points) {
@@ -255,7 +255,7 @@ TEST(Fill, GoesWithTheLattice) {
 }
 
 TEST(Fill, IsEvenWithin) {
-  // Spread over a volume, leaf area of rho adds up to N = 96/105 rho R where k is 2.
+  // For k = 2, a leaf area of rho per volume adds up to N = 96/105 rho R.
   for (const double radius : {1.0, 0.73}) {
     const LeafSolid solid = solid_of(cube(8, {0.1, 0.2, 0.3}));
     const std::vector<LeafPoint> points = fill(solid, radius);
@@ -267,7 +267,7 @@ TEST(Fill, IsEvenWithin) {
         }
       }
     }
-    // Half of that on a face.
+    // On a face N is half of that.
     EXPECT_NEAR(layers_at(points, {4.1, 0.2, 0.3}, radius) / expected, 0.5, 0.05);
   }
 }
@@ -284,7 +284,7 @@ TEST(Fill, RefusesTenMillionPoints) {
   }
 }
 
-/// A closed box of 3 x 2 x 2 and a card of area 4 beside it.
+/// A closed box of 3 x 2 x 2, and a card of area 4 beside it.
 LeafSet box_and_card() {
   TreeModel tree = test::closed_box();
   tree.instances.push_back({1, "node"});

@@ -28,7 +28,7 @@ using test::tree_of;
 
 LeafSet leaves_of(const TreeModel& tree) { return find_leaves(tree, {}); }
 
-/// Every triangle as four, by the middles of its sides.
+/// Cuts every triangle into four at the midpoints of its sides.
 Primitive quartered(const Primitive& whole) {
   Primitive fine;
   for (const auto& triangle : whole.triangles) {
@@ -69,7 +69,7 @@ TEST(LeafPoints, AreaIsThatOfTheMaskTexelByTexel) {
   const LeafSet whole = leaves_of(masked(tree_of({card(6, 4)}), image));
   EXPECT_NEAR(whole.area, area, 1e-9 * area);
   EXPECT_NEAR(area_of(area_points(whole, 0.3).points), area, 1e-6 * area);
-  // Triangles that cut through texels add up to the same.
+  // Triangles that cut through texels have the same area together.
   const LeafSet fine = leaves_of(masked(tree_of({quartered(quartered(card(6, 4)))}), image));
   EXPECT_NEAR(fine.area, area, 1e-6 * area);
 }
@@ -78,7 +78,7 @@ TEST(LeafPoints, FrontAndBackOfALeafCountOnce) {
   Primitive both = card(3, 2);
   test::add_back_faces(both);
   EXPECT_NEAR(leaves_of(tree_of({both})).area, 6, 1e-9);
-  // And where the back is cut along the other diagonal.
+  // The back may be cut along the other diagonal.
   Primitive crossed = card(3, 2);
   crossed.triangles.push_back({1, 0, 3});
   crossed.triangles.push_back({1, 3, 2});
@@ -162,7 +162,7 @@ TEST(LeafPoints, OfManyNeedlesAreBoundedByTheirVolume) {
   const LeafPoints points = area_points(leaves, 1);
   EXPECT_LE(points.points.size(), 7u * 7 * 7);
   EXPECT_NEAR(area_of(points.points), leaves.area, 1e-9 * leaves.area);
-  // Joining keeps the centre of all.
+  // Joining keeps the centre of all points.
   Vec3d centre, expected;
   for (const LeafPoint& p : points.points) centre = centre + p.position * p.area;
   for (const LeafSheet& sheet : leaves.sheets->sheets) {
@@ -191,7 +191,7 @@ TEST(LeafPoints, DoNotDependOnTheOrderOfTheFile) {
 
 TEST(LeafPoints, SamplesStandForEqualShares) {
   const Image image = test::alpha_image(64, test::opaque_inside(0.5, 0.5, 0.25, 0.25));
-  Primitive far = card(2, 2);  // a third of what is visible, the mask being on both
+  Primitive far = card(2, 2);  // a third of the visible area, as the mask is on both cards
   for (Vec3f& p : far.positions) p = p + Vec3f(10, 0, 0);
   const LeafSet leaves =
       leaves_of(masked(tree_of({card(2 * std::numbers::sqrt2_v<float>, 2), far}), image));

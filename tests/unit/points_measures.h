@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What tests measure of leaf points.
+// Measures of leaf points for tests.
 #pragma once
 
 #include <numbers>
@@ -15,7 +15,7 @@ inline double area_of(const std::vector<LeafPoint>& points) {
   return sum;
 }
 
-/// N of isotropic kernels of radius R, in doubles.
+/// N from isotropic kernels of radius R, in doubles.
 inline double layers_at(const std::vector<LeafPoint>& points, Vec3d p, double radius) {
   double n = 0;
   for (const LeafPoint& point : points) {

@@ -12,7 +12,7 @@
 namespace leafhull::test {
 namespace {
 
-/// What a shell prints for a script, its standard input and descriptor 3 being files, too.
+/// Runs a shell script whose three standard streams and descriptor 3 are files.
 struct Script {
   explicit Script(const std::string& script) {
     input.write("from the input\n");
@@ -45,7 +45,7 @@ TEST(Process, KnowsNobodysSettings) {
 }
 
 TEST(Process, TakesFilesInAnyOrder) {
-  const MemoryFile a, b;  // the lowest descriptors that are free: among those of the program
+  const MemoryFile a, b;  // take the lowest free descriptors, which the program's may overlap
   Process process({"sh", "-c", "echo third >&3; echo fourth >&4; echo fifth >&5"},
                   {0, 1, 2, b.descriptor(), a.descriptor(), b.descriptor()});
   EXPECT_TRUE(process.wait());

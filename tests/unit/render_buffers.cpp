@@ -15,7 +15,7 @@
 namespace leafhull::render {
 namespace {
 
-/// From +z at the origin; at a distance of 5 the picture is `across` wide.
+/// Looks from +z at the origin; at a distance of 5 the picture is `across` wide.
 Camera from_front(double across, float aspect = 1) {
   const double degrees = 2 * std::atan(across / 2 / 5) * 180 / std::numbers::pi;
   return look_at({0, 0, 5}, {0, 0, 0}, {0, 1, 0}, degrees, aspect);
@@ -43,7 +43,7 @@ std::size_t pixel_of(const Camera& camera, const Buffers& buffers, Vec3f point) 
 
 float apart(Vec3f a, Vec3f b) { return length(a - b); }
 
-// More pixels than one batch has rays, and none of its sides a multiple of a tile's.
+// The picture has more pixels than a batch has rays, and its sides are not multiples of a tile's.
 TEST(RenderBuffers, ABallIsSeenWhereItStands) {
   const Ball ball({0.25f, -0.5f, 0.125f}, 1);
   const std::array<const Target*, 1> targets{&ball};
@@ -103,7 +103,7 @@ TEST(RenderBuffers, WhatStandsBeforeTheLightThrowsAShadow) {
   EXPECT_NEAR(length(to_light), 1, 1e-6);
   const std::size_t top = pixel_of(camera, lit, to_light);
   EXPECT_NEAR(lit.key[top], 1, 1e-5f);
-  // The ball's own dark side.
+  // The dark side of the ball itself.
   EXPECT_EQ(lit.key[pixel_of(camera, lit, normalized(Vec3f{0.6f, -0.6f, 0.7f}))], 0);
 
   const Ball small(to_light * 2.2f, 0.4f, Object::wood);
@@ -172,11 +172,11 @@ TEST(RenderBuffers, AnEdgeCoversItsPart) {
     }
   }
   EXPECT_EQ(half.samples.size(), half.edges.size() * half.edge_rays);
-  // The column, and the neighbour beyond whichever side its centres fall on.
+  // The column itself, and the neighbour on the side to which its centres belong.
   EXPECT_EQ(half.edges.size(), 2u * kSize);
 }
 
-// Narrower than a pixel, beside the centres, and turned away from the light.
+// The strip is narrower than a pixel, misses the centres, and is turned away from the light.
 TEST(RenderBuffers, WhatOnlyAnEdgesRaysSeeHasItsOwnLight) {
   constexpr int kSize = 9;
   constexpr float kPixel = 4.0f / kSize;
@@ -248,7 +248,7 @@ TEST_F(RenderMesh, TheSkyIsHiddenWhereSomethingIsNear) {
   const Spot free{1, Object::foliage, {0, 0, 1.001f}, {0, 0, 1}, {0, 0, 1}, {}};
   const Spot inside{1, Object::foliage, {0, 0, 0.9f}, {0, 0, 1}, {0, 0, 1}, {}};
   const Spot deep{1,         Object::foliage, {0, 0, 0},
-                  {0, 0, 1}, {0, 0, 1},       {}};  // farther than it shades
+                  {0, 0, 1}, {0, 0, 1},       {}};  // farther inside than things shade
   const std::array spots{free, inside, deep, Spot{}};
   const MeshSurroundings sky(targets_);
   for (std::uint8_t turn = 0; turn < Surroundings::kTurns; ++turn) {
@@ -269,7 +269,7 @@ std::optional<Hit> closest(const Scene& scene, const Ray& ray) {
 TEST_F(RenderMesh, RaysInPacketsFindWhatSingleRaysFind) {
   const Camera camera = from_front(2.2);
   std::vector<Ray> rays;
-  for (int i = 0; i < 1000; ++i) {  // no whole number of packets, and some miss
+  for (int i = 0; i < 1000; ++i) {  // not a whole number of packets, and some rays miss
     rays.push_back({camera.eye, normalized(camera.direction(i % 40 / 40.0f, i / 25 / 40.0f))});
   }
   std::vector<Spot> spots(rays.size());
@@ -287,7 +287,7 @@ TEST_F(RenderMesh, RaysInPacketsFindWhatSingleRaysFind) {
   EXPECT_LT(hits, 1000);
 }
 
-// A square of two by two texels, two of them holes.
+// A square of two by two texels, two of which are holes.
 TEST(RenderLeaf, RaysPassThroughTheHolesOfATexture) {
   TreeModel tree;
   tree.images.push_back({2, 2, {0, 255, 0, 255, 0, 0, 0, 0, 0, 0, 0, 0, 255, 0, 0, 255}});

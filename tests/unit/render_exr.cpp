@@ -57,7 +57,7 @@ ReadImage decode(std::span<const std::uint8_t> bytes) {
   return image;
 }
 
-/// Two rows of three pixels: paper but for foliage at 1 and wood at 5.
+/// Two rows of three pixels: foliage at 1, wood at 5, paper elsewhere.
 Buffers sample() {
   Buffers buffers;
   buffers.resize(3, 2);

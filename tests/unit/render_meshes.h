@@ -9,7 +9,7 @@
 
 namespace leafhull {
 
-/// A sphere of rings and segments, smooth.
+/// A smooth sphere of rings and segments.
 inline Mesh sphere(Vec3f centre, float radius) {
   constexpr std::uint32_t kRings = 24, kSegments = 48;
   Mesh mesh;

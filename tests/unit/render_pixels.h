@@ -18,7 +18,7 @@ inline int grey(const Picture& picture, int x, int y) {
   return (rgb[0] + rgb[1] + rgb[2]) / 3;
 }
 
-/// The smallest rectangle within `window` that holds all that is not white; empty where all is.
+/// The smallest rectangle in `window` that holds everything but white; empty if all is white.
 inline Rectangle ink_of(const Picture& picture, Rectangle window) {
   Rectangle ink{window.right, window.bottom, window.left, window.top};
   for (int y = window.top; y < window.bottom; ++y) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include "colour/colour.h"
 #include "render/light.h"
 #include "render/shade.h"
 #include "render_pixels.h"
@@ -11,7 +12,7 @@ namespace {
 constexpr Vec3f kRight{1, 0, 0}, kUp{0, 1, 0}, kTowardsEye{0, 0, 1};
 const Camera kCamera{{0, 0, 5}, kRight, kUp, -kTowardsEye, 0.1f, 0.1f};
 
-/// One row of green pixels at the origin that face the eye and the light, after one of paper.
+/// A row with one pixel of paper, then green pixels at the origin that face the eye and the light.
 Buffers row(int count) {
   Buffers buffers;
   buffers.resize(1 + count, 1);
@@ -51,7 +52,7 @@ TEST(RenderPhong, LightShadowAndSkyTellInTurn) {
 TEST(RenderPhong, TheHighlightLiesInTheMirrorDirection) {
   Buffers buffers = row(3);
   buffers.to_light = kRight;
-  buffers.normal[1] = normalized(kRight + kTowardsEye);  // halfway
+  buffers.normal[1] = normalized(kRight + kTowardsEye);  // halfway between light and eye
   buffers.normal[2] = normalized(kRight * 0.4f + kTowardsEye);
   buffers.normal[3] = -kRight;
   const Picture phong = shade_phong(buffers), matte = shade_matte(buffers);
@@ -71,7 +72,7 @@ TEST(RenderPhong, AnEdgeIsTheMeanOfWhatItsRaysSee) {
   const Picture picture = shade_phong(buffers);
   const auto edge = pixel(picture, 1), whole = pixel(picture, 2);
   for (int i = 0; i < 3; ++i) {
-    const float half = (1 + linear(static_cast<std::uint8_t>(whole[i]))) / 2;
+    const float half = (1 + linear_of_srgb(static_cast<std::uint8_t>(whole[i]))) / 2;
     EXPECT_NEAR(edge[i], srgb(half), 1);
   }
 }

@@ -59,7 +59,7 @@ TEST(RenderShape, RefusesPicturesOfNothing) {
 TEST(RenderShape, ASphereIsRoundAndLitFromTheUpperLeft) {
   constexpr int kSize = 120;
   const Picture picture = draw_shape(sphere({}, 1), cube(1), kSize, kSize);
-  // The smallest rectangle around it is a square in the middle, and white beyond.
+  // The sphere fills a square in the middle; the rest is white.
   const Rectangle ink = ink_of(picture);
   EXPECT_NEAR(ink.right - ink.left, ink.bottom - ink.top, 1);
   EXPECT_NEAR((ink.left + ink.right) / 2, kSize / 2, 6);
@@ -88,7 +88,7 @@ TEST(RenderShape, ShadowsFallToTheLowerRight) {
   Mesh mesh = sphere({}, 1);
   const auto lit = [&](const Mesh& shape) { return draw_shape(shape, cube(3), 120, 120); };
   const Picture alone = lit(mesh);
-  // Towards the sun of this camera: from the left, above, before.
+  // The sphere is towards this camera's sun, at the upper left in front.
   const Mesh other = sphere({-1.1f, 2.1f, 1.5f}, 0.6f);
   const auto first = static_cast<std::uint32_t>(mesh.positions.size());
   mesh.positions.insert(mesh.positions.end(), other.positions.begin(), other.positions.end());

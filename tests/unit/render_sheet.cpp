@@ -33,7 +33,7 @@ TEST(RenderSheet, SizesAreKnownBefore) {
 }
 
 TEST(RenderSheet, APictureTooLargeForItsFileIsRefused) {
-  const Picture large{32768, 32768, {}};  // whose pixels are not looked at
+  const Picture large{32768, 32768, {}};  // nothing reads its pixels
   EXPECT_THROW(encode_png(large), Error);
   EXPECT_THROW(encode_jpeg(large, 85), Error);
 }
@@ -47,12 +47,12 @@ TEST(RenderSheet, PicturesStandInRows) {
   const int across = (row.width - one.width) / 2, down = two_rows.height - row.height;
   EXPECT_GT(across, 100);
   EXPECT_GT(down, 80);
-  // All three pictures, and nothing between them.
+  // The row holds all three pictures and nothing between them.
   const Rectangle ink = ink_of(row);
   EXPECT_EQ(ink.right - ink.left, 100 + 2 * across);
   EXPECT_EQ(ink.bottom - ink.top, 80);
   EXPECT_TRUE(is_blank(ink_of(row, {ink.left + 100, 0, ink.left + across, row.height})));
-  // The fourth stands under the first, beside white.
+  // The fourth is below the first; the rest of its row is white.
   EXPECT_EQ(grey(two_rows, ink.left, ink.top + down), 0);
   EXPECT_TRUE(is_blank(
       ink_of(two_rows, {ink.left + across, ink.top + down, two_rows.width, two_rows.height})));
@@ -72,7 +72,7 @@ TEST(RenderSheet, LabelsStandUnderTheirPictures) {
   ASSERT_FALSE(is_blank(label));
   EXPECT_LT(label.bottom, sheet.height);
   EXPECT_GT(label.left, middle);
-  // In the middle under its picture, which ends where all pictures end.
+  // The label is centred below its picture, which is the last one.
   EXPECT_NEAR((label.left + label.right) / 2.0, whole.right - 50, 3);
 }
 

@@ -48,7 +48,7 @@ class Ball : public SimpleTarget {
   Object object_;
 };
 
-/// The part between two x of the plane with this z, endlessly high, seen from larger z.
+/// The infinitely high part between two x of the plane with this z, seen from larger z.
 class Strip : public SimpleTarget {
  public:
   Strip(float left, float right, float z, Object object, Vec3f normal = {0, 0, 1})

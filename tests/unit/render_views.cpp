@@ -17,7 +17,7 @@ void expect_near(Vec3f a, Vec3f b) {
 
 const std::vector<Vec3f> kPoints{{1, 0, 0.2f}, {-0.5f, 2, 0}, {0, 1, -0.7f}, {0.3f, 1.5f, 0.9f}};
 
-/// The least distance of the points to the picture's border, a part of its width or height.
+/// The least distance of the points from the picture's border, as a share of its width or height.
 float margin_of(const Camera& camera, std::span<const Vec3f> points) {
   float least = 1;
   for (const Vec3f point : points) {
@@ -61,7 +61,8 @@ TEST(RenderView, ATurntableHoldsAllPointsAtEveryAngle) {
     for (int degree = 0; degree < 360; ++degree) {
       least = std::min(least, margin_of(table.at(degree), kPoints));
     }
-    EXPECT_NEAR(least, 0.1f, 1e-3f) << viewpoint.elevation;  // and it is no smaller than it must be
+    EXPECT_NEAR(least, 0.1f, 1e-3f)
+        << viewpoint.elevation;  // the subject is no smaller than needed
   }
 }
 

@@ -60,7 +60,7 @@ TEST_F(CsvScene, AnglesTurnAboutXThenYThenZ) {
   const Scene scene = read(
       "model,x,y,z,rx,ry,rz\nbirch.glb,0,0,0,90,0,0\nbirch.glb,0,0,0,90,90,0\n"
       "birch.glb,0,0,0,90,90,90\n");
-  // y goes to z by rx, z to x by ry, x to y by rz.
+  // rx takes y to z, ry takes z to x, and rz takes x to y.
   expect_near(moved(scene.trees[0], {0, 1, 0}), {0, 0, 1});
   expect_near(moved(scene.trees[1], {0, 1, 0}), {1, 0, 0});
   expect_near(moved(scene.trees[2], {0, 1, 0}), {0, 1, 0});
@@ -160,10 +160,10 @@ TEST_F(CsvScene, TreesThatCannotStandAreSkippedAndCounted) {
   const Scene scene = read(
       "model,x,y,z,qx,qy,qz,qw,scale\n"
       "birch.glb,0,0,0,0,0,0,1,1\n"
-      "birch.glb,0,0,0,0,0,0,1,0\n"      // no scale
-      "missing.glb,0,0,0,0,0,0,1,nan\n"  // nor is its model looked for
+      "birch.glb,0,0,0,0,0,0,1,0\n"      // the scale is zero
+      "missing.glb,0,0,0,0,0,0,1,nan\n"  // the model of a skipped tree may be missing
       "birch.glb,0,inf,0,0,0,0,1,1\n"
-      "birch.glb,0,0,0,0,0,0,0,1\n"  // no rotation
+      "birch.glb,0,0,0,0,0,0,0,1\n"  // the rotation is zero
       "ash.glb,0,0,0,0,0,0,1,1e-60\n"
       "ash.glb,0,0,0,0,0,0,1,1e60\n"
       "birch.glb,0,0,0,0,0,0,1,-2\n");
@@ -193,7 +193,7 @@ TEST_F(CsvScene, BadLinesAreNamed) {
   refuse("", "scene.csv holds no trees");
   refuse("model,x,y,z\n# nothing\n", "scene.csv holds no trees");
   refuse("model,x,y,z,scale\nbirch.glb,1,2,3,0\n",
-         "scene.csv holds no tree that can stand: of all 1 the scale is zero or a value is not "
+         "scene.csv holds no tree that can be placed: of all 1 the scale is zero or a value is not "
          "finite, the first at line 2");
   refuse("model,x,y,z\n\nbirch.glb,1,2,3\nbirch.glb,1,two,3\n",
          "scene.csv, line 4: \"two\" in column y is not a number");

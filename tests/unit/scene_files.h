@@ -14,7 +14,7 @@
 
 namespace leafhull::test {
 
-/// Leaves as squares of one unit in a row along x, with gaps as wide.
+/// Unit squares as leaves, in a row along x with gaps as wide.
 inline GlbPrimitive leaves_in_a_row(int count, int material) {
   GlbPrimitive row;
   row.material = material;
@@ -29,7 +29,7 @@ inline GlbPrimitive leaves_in_a_row(int count, int material) {
   return row;
 }
 
-/// A folder in which scenes and trees are written.
+/// A folder for scenes and trees.
 class SceneFolder : public TemporaryFolder {
  public:
   std::filesystem::path write(const std::string& name, const std::string& text) const {
@@ -58,7 +58,7 @@ class SceneFolder : public TemporaryFolder {
   }
 };
 
-/// Fails unless reading throws Error input whose message, the folder left out, is `message`.
+/// Expects reading to throw Error input with this message, apart from the folder's path.
 inline void expect_refused(const SceneFolder& folder, const std::filesystem::path& file,
                            const std::string& message) {
   try {

@@ -19,7 +19,7 @@ class GltfScene : public testing::Test {
     return read_scene(folder.write("forest.glb", builder.glb()), leaves);
   }
 
-  /// Two kinds of trees of bark and leaves, of 20 and 40 leaves, and ground.
+  /// Adds ground, and two kinds of trees with bark and with 20 and 40 leaves.
   GlbBuilder forest() {
     GlbBuilder builder;
     const int bark = builder.add_material("bark");
@@ -157,8 +157,8 @@ TEST_F(GltfScene, NamesOfNodesChooseLeavesToo) {
 TEST_F(GltfScene, WithoutLeavesItListsWhatThereIs) {
   GlbBuilder builder = forest();
   test::expect_refused(folder, folder.write("forest.glb", builder.glb()),
-                       "no leaves in forest.glb: neither names nor holes, colours or shapes tell "
-                       "any; it holds materials bark; meshes ground; nodes ground");
+                       "no leaves in forest.glb: names, holes, colours and shapes show "
+                       "none; it holds materials bark; meshes ground; nodes ground");
   test::expect_refused(folder, folder.write("empty.glb", GlbBuilder().glb()),
                        "empty.glb holds no triangles");
   test::expect_refused(folder, folder.write("not.glb", std::string("model,x,y,z\n")),

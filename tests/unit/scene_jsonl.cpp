@@ -15,7 +15,7 @@ class JsonScene : public testing::Test {
   Scene read(const std::string& text, const std::string& name = "scene.jsonl") {
     return read_scene(folder.write(name, text), {});
   }
-  /// The one tree at (1, 2, 3) with these members.
+  /// Reads one tree at (1, 2, 3) with these members.
   PlacedTree tree(const std::string& members) {
     return read(R"({"model": "birch.glb", "position": [1, 2, 3])" + members + "}\n").trees.at(0);
   }

@@ -17,7 +17,7 @@ namespace {
 
 double distance(Vec2d a, Vec2d b) { return std::hypot(a.x - b.x, a.y - b.y); }
 
-/// The least distance between any two points, from a sort along x.
+/// The least distance between any two points; sorts them along x.
 double least_distance(std::vector<Vec2d> points) {
   std::ranges::sort(points, {}, &Vec2d::x);
   double least = std::numeric_limits<double>::infinity();
@@ -71,7 +71,7 @@ TEST(PoissonDisks, AMillionTakesSeconds) {
 }
 
 TEST(RandomNumbers, AreThoseOfTheStandardsEngine) {
-  // The 10,000th number of mt19937_64 of seed 5489 is 9981545732273789042 ([rand.predef]).
+  // The 10,000th number of mt19937_64 with seed 5489 is 9981545732273789042 ([rand.predef]).
   Random random(5489);
   for (int i = 1; i < 10'000; ++i) random.number();
   EXPECT_EQ(random.number(), double(9981545732273789042u >> 11) / double(1ull << 53));
@@ -146,7 +146,7 @@ TEST_F(Scatter, TheSameOptionsGiveTheSameBytes) {
 }
 
 TEST_F(Scatter, SpacingIsInCrownWidths) {
-  // Crowns are 15 and 31 wide along x and flat along z: 11.5 in the mean.
+  // The crowns are 15 and 31 wide along x and flat along z, so their mean width is 11.5.
   options.count = 2500;
   options.spacing = 0.5;
   options.scale_low = 1, options.scale_high = 3;
@@ -182,7 +182,7 @@ TEST_F(Scatter, NamesTreesFromTheFileThatNamesThem) {
 }
 
 TEST_F(Scatter, HeightsAreBetweenThePixels) {
-  // Black on the left, white on the right, the lower row half as bright.
+  // Black is on the left and white on the right; the lower row is half as bright.
   const std::vector<std::uint8_t> pixels{0, 0, 0, 255, 254, 254, 254, 255,
                                          0, 0, 0, 255, 127, 127, 127, 255};
   options.ground = {folder.write("hills.png", test::png(2, 2, pixels)), 100};
@@ -208,7 +208,7 @@ TEST_F(Scatter, ValuesOutOfRangeAreRefused) {
     refuse(ErrorCode::usage, words);
   };
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  refuse_with([](auto& o) { o.trees.clear(); }, "no tree is to be scattered");
+  refuse_with([](auto& o) { o.trees.clear(); }, "no tree is given");
   refuse_with([](auto& o) { o.count = 0; }, "--count 0 is out of range");
   refuse_with([](auto& o) { o.count = 1'000'001; }, "--count 1000001 is out of range");
   refuse_with([](auto& o) { o.area = Vec2d{0, 5}; }, "--area has a side that is not");

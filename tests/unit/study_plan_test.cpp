@@ -67,7 +67,7 @@ TEST(StudyPlan, ServesEveryRowAndRepeatsNoExtraction) {
   std::vector<ReadingStudy> studies;
   for (const Reading& reading : readings()) studies.push_back(planned(reading));
   const Plan plan = leafhull::plan(studies);
-  // The middle of every figure is Table 1's CTRLED.
+  // The middle row of every figure is Table 1's CTRLED.
   EXPECT_EQ(plan.options.size(), readings().size() * (3 + 3 * 4));
   ASSERT_EQ(plan.rows.size(), plan.options.size());
 

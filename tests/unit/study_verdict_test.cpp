@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The paper's claims on figures made by hand.
+// The paper's claims, on hand-made figures.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -20,7 +20,7 @@ StudyRow row(std::uint64_t dilated, std::uint64_t off_site, bool empty = false) 
   return row;
 }
 
-/// L&D, UNCTRLED, CTRLED: dilated voxels and off-site vertices of each.
+/// The dilated voxels and off-site vertices of L&D, UNCTRLED and CTRLED.
 ReadingStudy table1(const Numbers& dilated, const Numbers& off_site) {
   ReadingStudy study;
   for (std::size_t i = 0; i < study.table1.size(); ++i) {
@@ -52,14 +52,14 @@ ReadingStudy figure13(const Numbers& dilated, const Numbers& off_site) {
   return study;
 }
 
-/// Both with the same dilated voxels throughout.
+/// Both figures with these off-site vertices and the same dilated voxels in all rows.
 ReadingStudy figures11_and_13(const Numbers& by_threshold, const Numbers& by_radius) {
   ReadingStudy study = figure13(Numbers(by_radius.size(), 1), by_radius);
   study.figure11 = figure11(Numbers(by_threshold.size(), 1), by_threshold).figure11;
   return study;
 }
 
-/// From the lowest lambda_R to the highest, as figures go.
+/// Figure 15 from the lowest lambda_R to the highest.
 ReadingStudy figure15(const Numbers& dilated, const Numbers& off_site) {
   ReadingStudy study;
   study.figure15 = series(&StudyRow::flatness, 0.6, 0.1, dilated, off_site);

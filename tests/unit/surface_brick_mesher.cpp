@@ -18,14 +18,15 @@
 namespace leafhull {
 namespace {
 
-/// Whether the faces around every vertex form one closed fan: each corner of a face leads on from
-/// one neighbour of the vertex to the next, and the way from any of them passes all.
+/// Whether the faces around every vertex form one closed fan: each corner of a face leads from one
+/// neighbour of the vertex to the next, and the path from any neighbour passes all of them.
 bool is_manifold(const Polygons& polygons) {
   std::vector<std::unordered_map<std::uint32_t, std::uint32_t>> fans(polygons.points.size());
   for (const auto& face : polygons.faces) {
     for (std::size_t i = 0; i < 4; ++i) {
       const auto [from, at, to] = std::array{face[i], face[(i + 1) % 4], face[(i + 2) % 4]};
-      if (!fans[at].emplace(to, from).second) return false;  // an edge twice in one direction
+      if (!fans[at].emplace(to, from).second)
+        return false;  // an edge occurs twice in one direction
     }
   }
   return std::all_of(fans.begin(), fans.end(), [](const auto& fan) {
@@ -34,19 +35,19 @@ bool is_manifold(const Polygons& polygons) {
     auto corner = fan.begin();
     do {
       corner = fan.find(corner->second);
-      if (corner == fan.end()) return false;  // an edge with a face on one side
+      if (corner == fan.end()) return false;  // an edge has a face only on one side
     } while (++passed < fan.size() && corner != fan.begin());
     return passed == fan.size();
   });
 }
 
-/// V - E + F; a quad has two edges of its own.
+/// V - E + F; each quad accounts for two edges.
 std::ptrdiff_t euler_characteristic(const Polygons& polygons) {
   return static_cast<std::ptrdiff_t>(polygons.points.size()) -
          static_cast<std::ptrdiff_t>(polygons.faces.size());
 }
 
-/// The corners of a cell that are inside.
+/// A bit for each corner of a cell that is inside.
 unsigned inside_of(const Field& field, Coord at) {
   unsigned inside = 0;
   for (int i = 0; i < 8; ++i) {
@@ -65,7 +66,7 @@ void expect_good(const Polygons& polygons, const Field& field) {
   }
 }
 
-/// Random samples with about `share` of them inside, but for the outermost ones, outside.
+/// Random samples, about `share` of them inside; the outermost ones are outside.
 Field noise(unsigned seed, double share) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> unit(0, 1);
@@ -78,7 +79,7 @@ Field noise(unsigned seed, double share) {
       1 - share, kLow, kHigh);
 }
 
-/// A block of samples inside, -5 to 5, but for those of `out`; or only those of `out`.
+/// Samples from -5 to 5 are inside, except for those in `out`; inverted, only those in `out` are.
 Field block(std::vector<Vec3d> out, bool inverted = false) {
   return field_of(
       [=](Vec3d p) {
@@ -90,7 +91,7 @@ Field block(std::vector<Vec3d> out, bool inverted = false) {
 }
 
 TEST(BrickMesher, OneSampleInsideIsABoxOfTheMeansOfItsCrossings) {
-  const Field field = block({{0, 0, 0}}, true);  // crossed halfway: vertices at (1, 1, 1) / 6
+  const Field field = block({{0, 0, 0}}, true);  // edges are cut halfway: vertices at (1, 1, 1) / 6
   const Polygons polygons = mesh_bricks(field);
   EXPECT_EQ(polygons.points.size(), 8u);
   EXPECT_EQ(polygons.faces.size(), 6u);
@@ -150,15 +151,15 @@ TEST(BrickMesher, SamplesAtTheThresholdAreInside) {
       },
       1.0, kLow, kHigh);
   const Polygons polygons = mesh_bricks(field);
-  expect_good(polygons, field);  // vertices at samples, yet each in its own cell
+  expect_good(polygons, field);  // vertices lie at samples, yet each in its own cell
   EXPECT_EQ(polygons.faces.size(), 6u * 7 * 7);
   EXPECT_NEAR(volume(polygons), 6 * 6 * 6, 1e-3);
 }
 
 TEST(BrickMesher, PairsAcrossTheDiagonalOfAFaceAreTwo) {
-  // Of samples inside: the patches of both cells beside the face go around the pair, which would
-  // put two mesh edges between the same two vertices; the surface must part the pair instead. Of
-  // samples outside: always parted. In a brick and across a face and an edge of it.
+  // If the pair is inside, the patches of both cells beside the face go around it, which would put
+  // two mesh edges between the same two vertices; the surface must part the pair instead. A pair
+  // outside is always parted. The pairs lie in a brick and across its faces and edges.
   for (const Vec3d a : {Vec3d(2, 2, 2), Vec3d(0, 2, 2), Vec3d(-1, -1, 2), Vec3d(-1, 2, 0)}) {
     for (const Vec3d step : {Vec3d(0, 1, 1), Vec3d(1, 0, 1), Vec3d(1, 1, 0), Vec3d(-1, 1, 0)}) {
       const Field pair = block({a, a + step}, true), hollows = block({a, a + step});
@@ -172,7 +173,7 @@ TEST(BrickMesher, PairsAcrossTheDiagonalOfAFaceAreTwo) {
 
 TEST(BrickMesher, NoiseIsManifold) {
   std::set<unsigned> cases;
-  int parted = 0;  // pairs of cells
+  int parted = 0;  // the number of pairs of cells whose surface is parted
   for (unsigned seed = 0; seed < 8; ++seed) {
     const Field field = noise(seed, 0.2 + 0.1 * seed);
     expect_good(mesh_bricks(field), field);
@@ -210,7 +211,7 @@ TEST(BrickMesher, ProvenBlocksStandForEvaluatedOnes) {
   for (const Brick* brick : bricks_of(dense)) {
     const Coord o{brick->origin().x(), brick->origin().y(), brick->origin().z()};
     const Vec3d middle = to_vec3d(o) + Vec3d(4, 4, 4);
-    if (length(middle) < 8) {  // the eight bricks around the origin
+    if (length(middle) < 8) {  // holds for the eight bricks around the origin
       inside.push_back({{o, kBrickEdge}, 1.0});
     } else {
       add_brick(sparse, ball, o);

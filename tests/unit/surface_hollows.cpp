@@ -21,7 +21,7 @@
 namespace leafhull {
 namespace {
 
-/// A cube of samples with what is at `holes` below T = 1.
+/// A cube of samples above T = 1, except for those at `holes`.
 Field cube_without(const std::set<Coord>& holes) {
   const auto density = [&](Vec3d p) {
     const bool in = std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)}) <= 12;
@@ -42,7 +42,7 @@ void expect_filled(const std::set<Coord>& holes) {
   EXPECT_EQ(m.on_voxels, cube.on_voxels);
 }
 
-/// The very same grid: nothing was altered, nor copied.
+/// Expects the very same grid: nothing was changed or copied.
 void expect_as_it_was(const Field& field) {
   const Field filled = fill_hollows(field);
   EXPECT_EQ(&negated_grid(filled), &negated_grid(field));
@@ -56,7 +56,7 @@ void expect_same_values(const Field& a, const Field& b) {
   EXPECT_EQ(a.inside().size(), b.inside().size());
 }
 
-/// A full_ball of radius 30, and a ball_shell of it that is hollow within 20.
+/// full_ball has radius 30; ball_shell is the same ball, hollow within radius 20.
 double depth(Vec3d p) { return 30 - length(p); }
 double full_ball(Vec3d p) { return 1 + std::min(depth(p), 5.0) / 4; }
 double ball_shell(Vec3d p) { return 1 + std::min(depth(p), 10 - depth(p)) / 4; }
@@ -78,13 +78,13 @@ void expect_same_surface(const Field& a, const Field& b) {
 
 TEST(Hollows, AShellBecomesABall) {
   const Field hollow = band_of(ball_shell, {1.0}, kBallLow, kBallHigh);
-  for (const Coord at : {Coord{0, 0, 0}, Coord{9, 3, 4}}) {  // two of its blocks
+  for (const Coord at : {Coord{0, 0, 0}, Coord{9, 3, 4}}) {  // in two blocks of the hollow
     ASSERT_FALSE(negated_grid(hollow).tree().probeConstLeaf(openvdb::Coord(at.x, at.y, at.z)));
     ASSERT_FALSE(is_inside(hollow, at));
   }
   const Field filled = fill_hollows(hollow);
   expect_same_surface(filled, band_of(full_ball, {1.0}, kBallLow, kBallHigh));
-  for (const int x : {0, 19}) {  // a block and a sample of a brick
+  for (const int x : {0, 19}) {  // in a block, and a sample of a brick
     EXPECT_EQ(negated_grid(filled).tree().getValue(openvdb::Coord(x, 0, 0)), -1) << x;
     EXPECT_FALSE(is_inside(hollow, {x, 0, 0})) << "what others hold has changed";
   }
@@ -158,7 +158,7 @@ TEST(Hollows, AcrossTheCornerOfEightBricksAndAWholeBrick) {
 }
 
 TEST(Hollows, ThatWindThroughBricks) {
-  // Three arms, each through a face of its brick, the last one up to the outermost samples inside.
+  // Three arms, each through a face of its brick; the last reaches the outermost samples inside.
   std::set<Coord> holes;
   for (int i = -5; i <= 6; ++i) holes.insert({i, 2, 3});
   for (int i = -9; i <= 2; ++i) holes.insert({6, i, 3});
@@ -169,7 +169,7 @@ TEST(Hollows, ThatWindThroughBricks) {
 }
 
 TEST(Hollows, ThoseThatAreOpenStayBesideThoseThatAreClosed) {
-  // Both go through one brick, and nearly touch.
+  // Both go through the same brick and nearly touch.
   std::set<Coord> open, closed;
   for (int z = 2; z <= 12; ++z) open.insert({2, 2, z});
   for (int z = 2; z <= 11; ++z) closed.insert({2, 4, z});
@@ -182,7 +182,7 @@ TEST(Hollows, ThoseThatAreOpenStayBesideThoseThatAreClosed) {
 
 TEST(Hollows, DiagonalContactDoesNotConnect) {
   for (const Coord step : {Coord{0, 1, 1}, Coord{1, 0, 1}, Coord{1, 1, 0}, Coord{1, 1, 1}}) {
-    // A tunnel from outside that ends a diagonal step from the hollow, within a brick and between.
+    // A tunnel from outside ends a diagonal step from the hollow, within a brick or between two.
     for (const int start : {3, 7}) {
       std::set<Coord> holes;
       const Coord end = Coord{start, start, start} + step;
@@ -237,7 +237,7 @@ TEST(Hollows, BricksFarApartNeedNoRoomBetween) {
 }
 
 TEST(Hollows, EachThresholdHasItsOwn) {
-  // At 1 the hollow is closed, at 1.5 a tunnel opens; at 2.5 nothing but the tunnel's rim is left.
+  // At 1 and 1.1 the hollow is closed; at 1.5 a tunnel opens it.
   const auto tunnelled = [](Vec3d p) {
     return p.x > 0 && p.y == 0 && p.z == 0 ? std::min(ball_shell(p), 1.2) : ball_shell(p);
   };
@@ -257,7 +257,7 @@ TEST(Hollows, EachThresholdHasItsOwn) {
 }
 
 TEST(Hollows, WhatIsProvenForALowerThresholdIsOutsideAHigherOne) {
-  // The core is inside at 1, and proven so; at 2 it belongs to the hollow.
+  // The core is proven inside at 1; at 2 it belongs to the hollow.
   const auto cored = [](Vec3d p) { return length(p) < 20 ? 1.5 : 2.0 * ball_shell(p); };
   const Field shared = band_of(cored, {1.0, 2.0}, kBallLow, kBallHigh);
   ASSERT_GT(shared.inside().size(), shared.at(2.0).inside().size());
@@ -268,7 +268,7 @@ TEST(Hollows, WhatIsProvenForALowerThresholdIsOutsideAHigherOne) {
   expect_as_it_was(shared);
 }
 
-/// Fields at random: bricks of noise, blocks inside and outside, decided ones with a margin.
+/// A random field with bricks of noise and with blocks proven inside and outside.
 Field random_field(std::mt19937& random, double share_below, int coarseness) {
   std::map<Coord, double> values;
   std::uniform_real_distribution<double> uniform(0, 1);
@@ -285,7 +285,7 @@ Field random_field(std::mt19937& random, double share_below, int coarseness) {
   return band_of(density, {1.0}, {-24, -24, -24}, {24, 24, 24});
 }
 
-/// Samples of [-24, 24)^3 that are below T: from which hollow each is, 0 for outside.
+/// For each sample of [-24, 24)^3 below T, the number of its hollow; 0 for outside.
 std::map<Coord, int> flooded(const Field& field, int& hollows) {
   std::map<Coord, int> of;
   const auto within = [](Coord c) {
@@ -314,7 +314,7 @@ std::map<Coord, int> flooded(const Field& field, int& hollows) {
   return of;
 }
 
-/// The pieces of a surface whose faces look inward: the walls of hollows.
+/// The number of pieces whose faces look inward: the walls of hollows.
 int walls(const Polygons& polygons) {
   const std::vector<std::uint32_t> component = component_of_each(polygons);
   std::map<std::uint32_t, double> volume;
@@ -338,7 +338,7 @@ TEST(Hollows, AreThoseOfAFloodOfAllSamples) {
       int hollows = 0;
       const std::map<Coord, int> of = flooded(field, hollows);
       found += hollows;
-      // The meshers see the same hollows: each has one wall.
+      // The mesher sees the same hollows; each has one wall.
       EXPECT_EQ(walls(mesh_bricks(field)), hollows);
       EXPECT_EQ(walls(polygonise(field, 0)), hollows);
       const Field filled = fill_hollows(field);

@@ -20,7 +20,7 @@ namespace {
 
 constexpr double kThreshold = 2;
 
-/// A ball of radius 10 around `centre`, N falling by one per voxel.
+/// A ball of radius 10; N falls by one per voxel.
 double ball_of_10(Vec3d p) {
   const Vec3d centre{12, 12, 12};
   return std::max(0.0, kThreshold + 10 - length(p - centre));
@@ -51,7 +51,7 @@ class FieldFiles : public testing::Test {
   std::filesystem::path file_ = folder_ / "field.vdb";
 };
 
-/// A field with a lattice far from zero, bricks and something proven inside.
+/// A field with a lattice far from zero, bricks and a block proven inside.
 Field sample() {
   Field field({0.25, {-64, 3200, 32}}, kThreshold);
   for (int x = 0; x < 24; x += kBrickEdge) {
@@ -110,7 +110,7 @@ TEST_F(FieldFiles, OfOtherProgramsNeedAThreshold) {
   for (const Vec3f p : polygonise(read.field, 0).points) {
     box.include(read.field.lattice().world(Vec3d(p)));
   }
-  // The ball of radius 10.5 voxels, cut off where the grid ends.
+  // The ball has a radius of 10.5 voxels and is cut off where the grid ends.
   EXPECT_NEAR(box.low.x, 0.5 * 1.5, 0.1);
   EXPECT_NEAR(box.high.x, 0.5 * 20, 0.5);
 }
@@ -172,7 +172,7 @@ TEST_F(FieldFiles, RefuseWhatIsNoDensity) {
   expect_error(ErrorCode::input, "finite", 1);
   write({foreign()});
   expect_error(ErrorCode::empty, "reaches the threshold 50", 50);
-  expect_error(ErrorCode::input, "no density", -1);
+  expect_error(ErrorCode::input, "not a density", -1);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which places on the leaves the shape leaves outside.
+// The share of points on the leaves that the shape leaves outside.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -21,7 +21,7 @@ using Density = std::function<double(Vec3d)>;
 
 constexpr Coord kFarLow{-24, -16, -16}, kFarHigh{24, 16, 16};
 
-/// 1 at its radius, 2 in the middle, falling outward.
+/// The density is 2 in the middle and falls to 1 at the radius.
 Density ball_around(Vec3d centre, double radius) {
   return [=](Vec3d p) {
     const Vec3d d = p - centre;
@@ -33,14 +33,14 @@ Density together(const Density& a, const Density& b) {
   return [=](Vec3d p) { return std::max(a(p), b(p)); };
 }
 
-/// A ball with a round hollow in it.
+/// A ball with a round hollow.
 Density shell_around(double radius, Vec3d middle, double hollow) {
   return [=, outer = ball_around({}, radius)](Vec3d p) {
     return std::min(outer(p), std::pow(length(p - middle) / hollow, 2));
   };
 }
 
-/// Of a field with T = 1, its pieces below the share `least` of the largest being dropped.
+/// The share outside a field with T = 1, whose pieces below `least` of the largest are dropped.
 double outside(const Field& field, std::span<const Vec3d> places, double least = 0) {
   Polygons polygons = polygonise(field, 0);
   const ComponentCount pieces = drop_small_components(polygons, least);
@@ -87,7 +87,7 @@ TEST(ShareOutside, TakesInAHollowThatWasFilled) {
 }
 
 TEST(ShareOutside, CountsWhatTheLatticeDoesNotSee) {
-  // Much smaller than a cell, between its corners.
+  // The speck is much smaller than a cell and lies between its corners.
   const Density speck = together(ball_around({-8, 0, 0}, 5), ball_around({8.5, 0.5, 0.5}, 0.4));
   const std::vector<Vec3d> places{{8.5, 0.5, 0.5}, {-8, 0, 0}};
   EXPECT_GT(speck(places[0]), 1);
@@ -98,7 +98,8 @@ TEST(ShareOutside, CountsPiecesThatAreDropped) {
   for (const double sign : {-1.0, 1.0}) {
     const Vec3d large(-8 * sign, 0, 0), small(12 * sign, 0, 0);
     const Density two = together(ball_around(large, 7.3), ball_around(small, 4.2));
-    // In its middle, next to its surface on all sides, and in the large one.
+    // Points in the small ball's middle and close to its surface on all sides, and in the large
+    // ball.
     const std::vector<Vec3d> places{small,
                                     small + Vec3d(3.9, 0, 0),
                                     small + Vec3d(-3.9, 0, 0),

@@ -16,7 +16,7 @@
 namespace leafhull {
 namespace {
 
-/// Directed edges, each counted: closed and consistently oriented means once each way.
+/// Whether every edge occurs once each way, as in a closed, consistently oriented surface.
 bool closed(const std::vector<std::array<std::uint32_t, 3>>& triangles) {
   std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
   for (const auto& [a, b, c] : triangles) {
@@ -43,8 +43,8 @@ TEST(Polygonise, OneSampleInsideIsAClosedBoxAroundIt) {
 }
 
 TEST(Polygonise, TheSixEdgesOfOneSampleAreCutHalfway) {
-  // N = 2 at the origin, 0 around, T = 1: the octahedron of the crossings has half-axes of 1/2; a
-  // dual vertex is the mean of the three crossings of its cell, at (1, 1, 1) / 6.
+  // N = 2 at the origin and 0 around it, T = 1: the crossings form an octahedron with half-axes of
+  // 1/2. A dual vertex is the mean of the three crossings of its cell, at (1, 1, 1) / 6.
   const auto peak = [](Vec3d p) { return p == Vec3d(0, 0, 0) ? 2.0 : 0.0; };
   const Polygons polygons = surface_of(field_of(peak, 1.0, kLow, kHigh));
   for (const Vec3f p : polygons.points) {
@@ -64,7 +64,7 @@ TEST(Polygonise, ASphereIsClosedOutwardAndRound) {
 }
 
 TEST(Polygonise, AdaptivityMergesFacesAndStaysClosed) {
-  // A box, its walls between samples.
+  // A box whose walls lie between samples.
   const auto box = [](Vec3d p) {
     return 11.5 - std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
   };
@@ -148,14 +148,14 @@ TEST(DensityGrid, IsOnTheGlobalLattice) {
 }
 
 TEST(Metrics, OfASlabByHand) {
-  // Inside for -4 <= x <= 4 on a 16^3 box of samples that is outside elsewhere.
+  // Samples are inside for |x| <= 4, |y| <= 5 and |z| <= 6.
   const auto slab = [](Vec3d p) {
     const bool in = std::fabs(p.x) <= 4 && std::fabs(p.y) <= 5 && std::fabs(p.z) <= 6;
     return in ? 2.0 : 0.0;
   };
   const Field field = field_of(slab, 1.0, kLow, kHigh);
-  // Two leaf vertices in one cell, one at the middle of a cell on the surface (trilinear N = 1,
-  // just on), one a little further out, one outside.
+  // Two leaf vertices are in one cell, one lies just on the surface in the middle of a cell
+  // (trilinear N = 1), one a little further out, and one is outside.
   const std::vector<Vec3d> leaves{
       {0.2, 0.2, 0.2}, {0.7, 0.3, 0.1}, {4.49, 0.5, 0.5}, {4.51, 1.5, 0.5}, {9.5, 0.5, 0.5}};
   const Metrics m = measure(field, leaves);
@@ -173,7 +173,7 @@ TEST(Metrics, ProvenBlocksCountLikeEvaluatedOnes) {
   for (const Brick* brick : bricks_of(dense)) {
     const Coord o{brick->origin().x(), brick->origin().y(), brick->origin().z()};
     const bool middle = std::abs(2 * o.x + 7) < 16 && std::abs(2 * o.y + 7) < 16 &&
-                        std::abs(2 * o.z + 7) < 16;  // the eight bricks around the origin, inside
+                        std::abs(2 * o.z + 7) < 16;  // the eight bricks around the origin
     if (middle) {
       inside.push_back({{o, kBrickEdge}, 1.0});
     } else {
@@ -192,7 +192,7 @@ TEST(Metrics, ProvenBlocksCountLikeEvaluatedOnes) {
 }
 
 TEST(Metrics, CountTheCellsThatCornersTell) {
-  // Bricks at random places, their samples at random on both sides.
+  // Bricks at random places with random samples on both sides.
   std::mt19937 random(7);
   std::uniform_int_distribution<int> five(0, 4);
   Field field({}, 1.0);
@@ -239,7 +239,7 @@ Polygons tetrahedra(std::vector<float> sizes) {
 }
 
 TEST(Components, SmallOnesAreDroppedByVolume) {
-  // Volumes as 1 : 27 : 8.
+  // The volumes are as 1 : 27 : 8.
   Polygons polygons = tetrahedra({1, 3, 2});
   const ComponentCount count = drop_small_components(polygons, 0.1);
   EXPECT_EQ(count.kept, 2u);
@@ -250,7 +250,7 @@ TEST(Components, SmallOnesAreDroppedByVolume) {
   EXPECT_TRUE(closed(triangulate(polygons)));
 }
 
-/// A tetrahedron of volume 4/3 and a cube of 8, its last corner at `corner`.
+/// A tetrahedron of volume 4/3 and a cube of volume 8 whose last corner is moved to `corner`.
 Polygons tetrahedron_and_cube(Vec3f corner) {
   Polygons polygons = tetrahedra({2});
   for (int i = 0; i < 8; ++i) {
@@ -269,7 +269,7 @@ Polygons tetrahedron_and_cube(Vec3f corner) {
 }
 
 TEST(Components, AQuadCountsWhole) {
-  // The tetrahedron is 0.167 of the cube; of half the cube it would be 0.33.
+  // The tetrahedron is 0.167 of the cube; if quads counted half, it would be 0.33.
   Polygons polygons = tetrahedron_and_cube({2, 2, 2});
   Polygons same = polygons;
   EXPECT_EQ(drop_small_components(same, 0.16).kept, 2u);
@@ -278,9 +278,9 @@ TEST(Components, AQuadCountsWhole) {
 }
 
 TEST(Components, WhereAQuadBeginsDoesNotMatter) {
-  // With one corner drawn out three of the cube's quads are not flat.
+  // With one corner moved out, three of the cube's quads are not flat.
   Polygons polygons = tetrahedron_and_cube({3, 3, 3});
-  // Folded one way or the other the cube's volume is 10 or 12, their mean 11: 4/3 is 0.1212 of it.
+  // Folded one way or the other, the cube's volume is 10 or 12; 4/3 is 0.1212 of their mean.
   for (int turn = 0; turn < 4; ++turn) {
     Polygons below = polygons, above = polygons;
     EXPECT_EQ(drop_small_components(below, 0.1205).kept, 2u) << turn;
@@ -293,7 +293,7 @@ TEST(Components, WhereAQuadBeginsDoesNotMatter) {
 }
 
 TEST(Components, AreFoundAcrossManyTriangles) {
-  // A strip whose triangles come in any order, and beside it a thousand small ones.
+  // A strip whose triangles come in random order, and a thousand small pieces beside it.
   constexpr std::uint32_t kLength = 50'000;
   Polygons polygons = tetrahedra(std::vector<float>(1000, 0.01f));
   for (std::uint32_t i = 0; i < kLength; ++i) {

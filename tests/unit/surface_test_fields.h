@@ -12,10 +12,10 @@
 
 namespace leafhull {
 
-/// The corners of most fields.
+/// The bounds of most fields.
 inline constexpr Coord kLow{-16, -16, -16}, kHigh{16, 16, 16};
 
-/// Evaluates one brick of a function of local coordinates.
+/// Adds a brick of samples of a function of local coordinates.
 inline void add_brick(Field& field, const std::function<double(Vec3d)>& density, Coord origin) {
   std::vector<float> samples;
   for (int s = 0; s < kBrickSamples; ++s) {
@@ -25,7 +25,7 @@ inline void add_brick(Field& field, const std::function<double(Vec3d)>& density,
   field.add_bricks({&origin, 1}, samples);
 }
 
-/// The field of a function of local coordinates, every brick of [low, high) evaluated.
+/// The field of a function of local coordinates with every brick of [low, high).
 inline Field field_of(const std::function<double(Vec3d)>& density, double threshold, Coord low,
                       Coord high) {
   Field field({}, threshold);
@@ -54,8 +54,8 @@ void for_each_sample(Coord low, Coord high, const Visit& visit) {
   }
 }
 
-/// The field of a function for ascending thresholds, as a search for the band would leave it:
-/// blocks that are decided with a sample around them are not evaluated.
+/// The field of a function for ascending thresholds, as the search for the band leaves it: a block
+/// that lies on one side of T together with the samples around it is not evaluated.
 inline Field band_of(const std::function<double(Vec3d)>& density,
                      const std::vector<double>& thresholds, Coord low, Coord high) {
   Field field({}, thresholds.front());

@@ -30,7 +30,7 @@ const DeviceInfo kDevice = [] {
   return device;
 }();
 
-/// Thresholds by methods; what is extracted is the threshold alone.
+/// A plan over methods and thresholds; its options hold only the threshold.
 SweepPlan plan(const std::string& thresholds, const std::string& methods) {
   SweepPlan plan{{swept_option(option_row("method"), methods),
                   swept_option(option_row("threshold"), thresholds)},
@@ -122,7 +122,7 @@ TEST(SweepPlan, TellsSweepsApart) {
 TEST(SweepPlan, PlotsHaveALineForEachOtherCombination) {
   const SweepPlan sweep = plan("3,1,2", "isotropic,controlled");
   const std::vector<Plot> drawn = plots(sweep, rows_of(sweep), "tree.glb");
-  ASSERT_EQ(drawn.size(), 1u);  // a method is no number
+  ASSERT_EQ(drawn.size(), 1u);  // methods are not numbers
   EXPECT_EQ(drawn[0].file, "plot-threshold.svg");
   const Chart& chart = drawn[0].chart;
   EXPECT_EQ(chart.x_label, "threshold (density)");

@@ -9,7 +9,7 @@
 
 namespace leafhull::test {
 
-/// A folder of its own for a test, gone with it.
+/// A folder for one test; the destructor removes it.
 class TemporaryFolder {
  public:
   TemporaryFolder() {

@@ -54,7 +54,7 @@ TEST(Text, ReplacesBytesThatAreNotUtf8) {
   EXPECT_EQ(decode_utf8("\xCE"), U"\uFFFD");                      // cut short
   EXPECT_EQ(decode_utf8("\xCEz"), U"\uFFFDz");                    // not continued
   EXPECT_EQ(decode_utf8("\xC0\xAF"), U"\uFFFD\uFFFD");            // '/' in two bytes
-  EXPECT_EQ(decode_utf8("\xED\xA0\x80"), U"\uFFFD\uFFFD\uFFFD");  // half of a pair
+  EXPECT_EQ(decode_utf8("\xED\xA0\x80"), U"\uFFFD\uFFFD\uFFFD");  // half a surrogate pair
   EXPECT_EQ(decode_utf8("\xF4\x90\x80\x80").front(), U'\uFFFD');  // beyond Unicode
 }
 

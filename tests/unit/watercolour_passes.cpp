@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every pass on a few pixels whose result is known, on both variants of the kernels.
+// Every pass on a few pixels with a known result, on both variants of the kernels.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -105,7 +105,7 @@ TEST_P(PassesTest, ThePaperIsSeamless) {
       seam += std::abs(at(kSize, i) - at(kSize - 1, i)) + std::abs(at(i, kSize) - at(i, kSize - 1));
     }
     EXPECT_GT(change, 0);
-    EXPECT_LT(seam, 2 * change);  // no step at the edge
+    EXPECT_LT(seam, 2 * change);  // there is no step at the edge
   }
 }
 
@@ -164,12 +164,12 @@ TEST_P(PassesTest, DarknessIsWhatIsMissingOfTheLight) {
       passes.darkness(passes.upload(Values{0.3f, 0.15f, 0}), passes.upload(Values{1, 0.5f, 0}));
   const Values v = passes.download(dark);
   EXPECT_NEAR(v[0], 0.7f, kNear);
-  EXPECT_NEAR(v[1], 0.7f, kNear);  // half a pixel is as dark as a whole one
+  EXPECT_NEAR(v[1], 0.7f, kNear);  // half a pixel is as dark as a whole pixel
   EXPECT_NEAR(v[2], 1, kNear);
 }
 
 TEST_P(PassesTest, NoiseStaysWithItsPoint) {
-  Passes passes(device(), 40, 1);  // three vectors: the last sees nothing
+  Passes passes(device(), 40, 1);  // three vectors, the last one without a subject
   Values near(40), x(40), y(40), z(40);
   const auto put = [&](int i, Vec3f p) { near[i] = 1, x[i] = p.x, y[i] = p.y, z[i] = p.z; };
   put(0, {0.3f, 0.1f, -0.2f}), put(17, {0.3f, 0.1f, -0.2f}), put(2, {-0.7f, 1.4f, 0.9f});
@@ -201,9 +201,9 @@ TEST_P(PassesTest, VisibilityIsTheBlurredDepthTest) {
   const Plane visible = passes.visibility(passes.upload(Values{1, 2.5f, 2.25f, 4}),
                                           passes.constant(0.25f), passes.constant(0.25f * 2), 0.5f);
   const Values v = passes.download(visible);
-  EXPECT_NEAR(v[0], 1, kNear);     // before its neighbourhood
-  EXPECT_NEAR(v[1], 0, kNear);     // half a unit behind
-  EXPECT_NEAR(v[2], 0.5f, kNear);  // half way
+  EXPECT_NEAR(v[0], 1, kNear);     // in front of its neighbourhood
+  EXPECT_NEAR(v[1], 0, kNear);     // half a unit behind it
+  EXPECT_NEAR(v[2], 0.5f, kNear);  // halfway
   EXPECT_NEAR(v[3], 0, kNear);
 }
 
@@ -272,7 +272,7 @@ TEST_P(PassesTest, EdgesAreDarkerThanWhatLiesInside) {
   Passes passes(device(), 3, 1);
   const Values v = passes.download(passes.darken_edges(passes.upload(Values{0, 1, 0.8f}),
                                                        passes.upload(Values{0.5f, 0.5f, 0.8f}), 2));
-  EXPECT_NEAR(v[0], 0, kNear);  // none outside
+  EXPECT_NEAR(v[0], 0, kNear);  // no pigment outside
   EXPECT_NEAR(v[1], 2, kNear);  // 1 (1 + 2 (1 - 0.5))
   EXPECT_NEAR(v[2], 0.8f, kNear);
 }
@@ -291,9 +291,9 @@ TEST_P(PassesTest, DilutionThinsTheLights) {
   EXPECT_NEAR(lights[2], 1.5f, 1e-4f);
   EXPECT_NEAR(diluted(0.5f, 0.5f, 0, 0)[0], 2.5f, kNear);
   EXPECT_NEAR(diluted(-0.5f, 0.5f, 0, 0)[0], 1.5f, kNear);
-  EXPECT_NEAR(diluted(-0.1f, 0, 1, 0)[0], 2, kNear);  // before the front of a backrun
-  EXPECT_NEAR(diluted(0.03f, 0, 1, 0)[0], 4, kNear);  // on it
-  EXPECT_NEAR(diluted(0.3f, 0, 1, 0)[0], 2, kNear);   // far behind
+  EXPECT_NEAR(diluted(-0.1f, 0, 1, 0)[0], 2, kNear);  // ahead of the front of a backrun
+  EXPECT_NEAR(diluted(0.03f, 0, 1, 0)[0], 4, kNear);  // on the front
+  EXPECT_NEAR(diluted(0.3f, 0, 1, 0)[0], 2, kNear);   // far behind it
 }
 
 TEST_P(PassesTest, PigmentSettlesInValleys) {
@@ -328,7 +328,7 @@ TEST_P(PassesTest, ACoatOfPigmentIsItsColour) {
   EXPECT_EQ(rgb[3], byte(color.x));
   EXPECT_EQ(rgb[4], byte(0.9f * color.y));
   EXPECT_EQ(rgb[5], byte(color.z));
-  EXPECT_EQ(rgb[6], byte(color.x * color.x));  // C^(1 + 1): two coats
+  EXPECT_EQ(rgb[6], byte(color.x * color.x));  // two coats: C^(1 + 1)
   EXPECT_EQ(rgb[8], byte(color.z * color.z));
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whole watercolours of a small made-up tree: a ball of foliage on a trunk, turned about its axis.
+// Whole watercolours of a small artificial tree: a ball of foliage on a trunk, turned about its
+// axis.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -25,7 +26,7 @@ Device& device() {
   return device;
 }
 
-/// A ball around (0, 0.65, 0) of radius 0.3 over a trunk to the ground, seen from z.
+/// A ball of radius 0.3 around (0, 0.65, 0) on a trunk down to the ground, seen from z.
 render::Buffers tree(int width, int height, float turn = 0) {
   render::Buffers b;
   b.resize(width, height);
@@ -82,14 +83,14 @@ Picture paint(const render::Buffers& buffers, std::span<const Stroke> strokes, c
   return Painter(device()).paint(buffers, {strokes, tones}, style);
 }
 
-/// Mean absolute difference of two pictures, of 255.
+/// The mean absolute difference of two pictures, out of 255.
 double difference(const Picture& a, const Picture& b) {
   double sum = 0;
   for (std::size_t i = 0; i < a.rgb.size(); ++i) sum += std::abs(a.rgb[i] - b.rgb[i]);
   return sum / static_cast<double>(a.rgb.size());
 }
 
-/// The mean colour of a rectangle, its sides as parts of the picture's.
+/// The mean colour of a rectangle, whose sides are shares of the picture's.
 Vec3f mean(const Picture& p, float left, float top, float right, float bottom) {
   Vec3f sum;
   float count = 0;
@@ -125,7 +126,7 @@ TEST(Watercolour, IsItsSeedAndItsStyle) {
   EXPECT_GT(difference(first, paint(b, {}, shipped_style("wet"))), 1);
 }
 
-/// A style with one number at either end of its range, or a colour at black and white.
+/// Two styles with a number at the ends of its range, or with a colour black and white.
 template <class Owner>
 std::array<Style, 2> ends_of(const Style& style, const StyleKey& key, Owner&& owner) {
   std::array<Style, 2> ends{style, style};
@@ -151,7 +152,7 @@ std::array<Style, 2> ends_of(const Style& style, const StyleKey& key, Owner&& ow
   return ends;
 }
 
-// A pass that is left out shows: the number that it is for changes nothing.
+// If a pass were left out, its number would change nothing.
 TEST(Watercolour, EveryRowOfTheTableShows) {
   const Style style = shipped_style("classic");
   Painter painter(device());
@@ -167,8 +168,8 @@ TEST(Watercolour, EveryRowOfTheTableShows) {
   for (const WashName& wash : wash_names()) {
     for (const StyleKey& key : wash_keys()) {
       const std::string name = std::string(wash.name) + '.' + std::string(key.name);
-      // No leaf is near the ground; single leaves are drawn sharp; and how wet the edge of a thin
-      // wash is takes some pixels to see.
+      // No leaf is near the ground, single leaves are drawn sharp, and the wetness of a thin wash's
+      // edge only shows in a large picture.
       if (name == "ground.raggedness" || name == "leaves.wetness") continue;
       const int size = key.name == "wetness" ? 800 : 140;
       EXPECT_TRUE(shows(ends_of(style, key, [&](Style& s) -> Wash& { return s.*wash.wash; }), size))
@@ -221,7 +222,7 @@ TEST(Watercolour, AnySizeIsPainted) {
     EXPECT_EQ(p.width, width);
     EXPECT_EQ(p.height, height);
     EXPECT_EQ(p.rgb.size(), std::size_t{3} * width * height);
-    EXPECT_GT(grey(mean(p, 0, 0, 1, 1)), 40);  // NaN would come out black
+    EXPECT_GT(grey(mean(p, 0, 0, 1, 1)), 40);  // NaN would be black
   }
 }
 
@@ -238,7 +239,7 @@ TEST(Watercolour, APictureFullOfFoliageIsGreen) {
   EXPECT_GT(c.y, c.x);
   EXPECT_GT(c.y, c.z);
   EXPECT_LT(grey(c), 180);
-  EXPECT_GT(grey(c), 40);  // no black
+  EXPECT_GT(grey(c), 40);  // it is not black
 }
 
 TEST(Watercolour, LightIsPaleAndShadowDark) {
@@ -250,7 +251,7 @@ TEST(Watercolour, LightIsPaleAndShadowDark) {
   EXPECT_GT(grey(light), grey(shadow) + 40);
   EXPECT_LT(grey(light), grey(paper));
   EXPECT_GT(shadow.y, shadow.x);
-  // Warm lights take more of the blue than of the red; in cool shadows the two are closer.
+  // Warm lights absorb more blue than red; in cool shadows the two are closer.
   const auto warmth = [&](Vec3f c) { return std::log(paper.z / c.z) / std::log(paper.x / c.x); };
   EXPECT_GT(warmth(light), 1.5f);
   EXPECT_LT(warmth(shadow), 0.75f * warmth(light));
@@ -270,7 +271,7 @@ TEST(Watercolour, ATwiceAsLargePictureLooksAlike) {
   }
 }
 
-/// The mean change between two frames `turn` apart, the second from another `seed`.
+/// The mean change between two frames `turn` apart; the second has this `seed`.
 double change(float turn, std::uint32_t seed) {
   constexpr int kSize = 256;
   Style style = shipped_style("classic");
@@ -283,14 +284,15 @@ TEST(Watercolour, PigmentAndPaperDoNotSwim) {
   constexpr float kDegree = std::numbers::pi_v<float> / 180;
   const std::uint32_t seed = shipped_style("classic").seed;
   const double turned = change(kDegree, seed), barely = change(0.1f * kDegree, seed);
-  // Another paper and other patches: what noise does that is bound to neither paper nor tree.
+  // Another seed gives another paper and other patches, as if noise followed neither paper nor
+  // tree.
   const double swimming = change(kDegree, seed + 1);
   RecordProperty("turned", std::to_string(turned));
   RecordProperty("barely", std::to_string(barely));
   RecordProperty("swimming", std::to_string(swimming));
   EXPECT_GT(barely, 0);
   EXPECT_LT(turned, 0.3 * swimming);
-  EXPECT_LT(barely, 0.25 * turned);  // it moves with the tree: nothing pops
+  EXPECT_LT(barely, 0.25 * turned);  // paint moves with the tree; nothing pops
 }
 
 TEST(Watercolour, ATreeStandsWhereItsWoodMeetsTheGround) {
@@ -301,13 +303,13 @@ TEST(Watercolour, ATreeStandsWhereItsWoodMeetsTheGround) {
   EXPECT_EQ(foot->y, 179);          // the trunk ends at 0.1
   EXPECT_NEAR(foot->reach, 60, 1);  // the ball's radius
   b.to_eye = normalized(Vec3f{0, 1, 1});
-  EXPECT_FALSE(find_foot(b));  // from above
+  EXPECT_FALSE(find_foot(b));  // seen from above
   b.to_eye = {0, 0, 1};
   b.object[195 * 200 + 20] = render::Object::foliage;
   EXPECT_FALSE(find_foot(b));  // the trunk ends in the air
   b = tree(200, 200);
   b.object[199 * 200 + 100] = render::Object::wood;
-  EXPECT_FALSE(find_foot(b));  // the picture ends first
+  EXPECT_FALSE(find_foot(b));  // the picture ends above the foot
   b.resize(200, 200);
   EXPECT_FALSE(find_foot(b));
 }
@@ -362,7 +364,7 @@ TEST(Watercolour, SizesThatCannotBeAreRefused) {
   };
   render::Buffers b;
   EXPECT_EQ(code(b), ErrorCode::usage);
-  b.width = b.height = 1 << 20;  // told from the size alone
+  b.width = b.height = 1 << 20;  // the size alone is refused
   EXPECT_EQ(code(b), ErrorCode::usage);
 }
 

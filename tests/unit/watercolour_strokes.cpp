@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kSize = 64;
 
-/// A picture that is half foliage, dark below: columns under 32 are the silhouette's edge.
+/// A picture that is half covered by foliage and dark everywhere.
 struct Scene {
   std::vector<float> outline = std::vector<float>(kSize * kSize, 0.5f);
   std::vector<float> dark = std::vector<float>(kSize * kSize, 0.9f);
@@ -35,12 +35,12 @@ TEST(Strokes, ALeafHasItsShape) {
   const Scene scene;
   const std::vector<float> v = break_edges({{leaf_at(32, 32)}}, scene.room(), kBrush);
   const auto at = [&](int x, int y) { return std::abs(v[y * kSize + x]); };
-  EXPECT_GT(at(32, 32), 0.39f);       // its gain is 0.4 to 1
-  EXPECT_EQ(at(32, 32), at(37, 32));  // along it
+  EXPECT_GT(at(32, 32), 0.39f);       // the gain is 0.4 to 1
+  EXPECT_EQ(at(32, 32), at(37, 32));  // along the leaf
   EXPECT_EQ(at(32, 37), 0);           // half as wide as long
-  EXPECT_EQ(at(41, 32), 0);           // tips
+  EXPECT_EQ(at(41, 32), 0);           // beyond the tip
   EXPECT_EQ(at(38, 35), 0);           // it narrows
-  // Two parabolas over 16 pixels, 4 high.
+  // The outline is two parabolas over 16 pixels, 4 high.
   EXPECT_NEAR(sum(v) / v[32 * kSize + 32], 2 * 2 / 3.0 * 16 * 4, 3);
 }
 
@@ -72,8 +72,8 @@ TEST(Strokes, StrokesKeepToTheBrush) {
     return std::count_if(v.begin(), v.end(), [](float x) { return x != 0; });
   };
   const Brush brush{.size = 1, .least = 4, .most = 6, .tolerance = 0.1f};
-  EXPECT_GT(area({0.1f, 0}, {0, 0.05f}, brush), 10);  // no smaller than the least
-  EXPECT_GT(area({5, 0}, {0, 0.01f}, brush), 15);     // nor thin on edge
+  EXPECT_GT(area({0.1f, 0}, {0, 0.05f}, brush), 10);  // not smaller than the least size
+  EXPECT_GT(area({5, 0}, {0, 0.01f}, brush), 15);     // not thin even when seen from its edge
   EXPECT_GT(area({20, 0}, {0, 20}, brush), 3 * area({6, 0}, {0, 4}, brush));  // a spray
   EXPECT_EQ(area({0, 0}, {0, 0}, brush), 0);
 }
@@ -102,7 +102,7 @@ TEST(Strokes, AFrondIsLongAndSlender) {
   EXPECT_GT(at(32, 32), 0);
   EXPECT_GT(at(46, 32), 0) << "twice as long as its card";
   EXPECT_EQ(at(32, 38), 0);
-  // A large card is a spray of them, about along the card.
+  // A large card becomes a spray of strokes, roughly along the card.
   const Stroke card{{32, 32}, {20, 0}, {0, 20}, 2, 3};
   brush.most = 4;
   const std::vector<float> spray = break_edges({{card}}, scene.room(), brush);
@@ -124,7 +124,7 @@ TEST(Strokes, ALeafAtTheEyeIsASprayOfBoundedLength) {
     const std::vector<float> v = break_edges({{stroke}}, scene.room(), brush);
     return std::count_if(v.begin(), v.end(), [](float x) { return x != 0; });
   };
-  // The dabs that would cover it: 2e1, 2e13, more than floats count.
+  // To cover it would take 2e1 dabs, 2e13, and more than floats can count.
   const auto few = area(20, 1);
   EXPECT_GT(few, 100);
   EXPECT_EQ(area(20, 1e6f), few);

@@ -10,7 +10,7 @@
 namespace leafhull::watercolour {
 namespace {
 
-/// What is wrong with a style file, with its remedy.
+/// The error that a style file causes, with its remedy.
 std::string fault(const std::string& json) {
   try {
     parse_style(json, "my.json");
@@ -57,7 +57,7 @@ TEST(Style, AFaultNamesFileAndKey) {
   EXPECT_NE(fault(R"({"wetnes": 1})").find("my.json: there is no key 'wetnes'"), std::string::npos);
   EXPECT_NE(fault(R"({"tone": {"wetnes": 1}})").find("my.json: there is no key 'tone.wetnes'"),
             std::string::npos);
-  EXPECT_NE(fault(R"({"tone": 1})").find("my.json: the key 'tone' is 1, which is no wash"),
+  EXPECT_NE(fault(R"({"tone": 1})").find("my.json: the key 'tone' is 1, which is not a wash"),
             std::string::npos);
   EXPECT_NE(fault(R"({"seed": 1.5})").find("my.json: the key 'seed' is 1.5, not a whole number"),
             std::string::npos);
@@ -85,7 +85,7 @@ TEST(Style, AFaultIsOneLine) {
 TEST(Style, EveryNumberHasItsRange) {
   int numbers = 0;
   const auto check = [&](const StyleKey& key, const std::string& before, const std::string& after) {
-    if (key.high == key.low) return;  // a colour
+    if (key.high == key.low) return;  // the key is a colour
     ++numbers;
     const std::string name = "\"" + std::string(key.name) + "\": ";
     const auto with = [&](const std::string& value) { return before + name + value + after; };
@@ -97,8 +97,8 @@ TEST(Style, EveryNumberHasItsRange) {
       EXPECT_NE(fault(with(wrong)).find("It is a number in " + std::string(key.range)),
                 std::string::npos);
     }
-    EXPECT_NE(fault(with("\"1\"")).find("which is no number"), std::string::npos);
-    EXPECT_NE(fault(with("true")).find("which is no number"), std::string::npos);
+    EXPECT_NE(fault(with("\"1\"")).find("which is not a number"), std::string::npos);
+    EXPECT_NE(fault(with("true")).find("which is not a number"), std::string::npos);
   };
   for (const StyleKey& key : style_keys()) check(key, "{", "}");
   for (const StyleKey& key : wash_keys()) check(key, R"({"ground": {)", "}}");

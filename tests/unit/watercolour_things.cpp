@@ -10,7 +10,7 @@ namespace {
 constexpr Vec3f kBark{0.12f, 0.06f, 0.03f}, kGrey{0.3f, 0.3f, 0.3f}, kLake{0.05f, 0.2f, 0.5f},
     kLawn{0.2f, 0.5f, 0.1f};
 
-/// A row of pixels of these colours, all of them wood.
+/// A row of wood pixels with these colours.
 render::Buffers row_of(const std::vector<Vec3f>& colours) {
   render::Buffers buffers;
   buffers.resize(static_cast<int>(colours.size()), 1);

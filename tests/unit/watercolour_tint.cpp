@@ -18,7 +18,7 @@ Vec3d seen(Vec3f srgb) {
 
 double hue(Vec3d lab) { return std::atan2(lab.z, lab.y); }
 
-/// From -pi to pi.
+/// The angle from a to b, in [-pi, pi].
 double between(double a, double b) { return std::remainder(b - a, 2 * M_PI); }
 
 TEST(Tint, OfTheGreenThatStylesAreMadeForChangesNothing) {
@@ -58,7 +58,7 @@ TEST(Oklab, ThereAndBack) {
     EXPECT_LT(length(linear_of_oklab(oklab_of(colour)) - colour), 1e-4f);
   }
   EXPECT_NEAR(oklab_of({1, 1, 1}).x, 1, 1e-4);
-  // With less chroma where it could not be shown, and as light.
+  // A colour that cannot be shown loses chroma but keeps its lightness.
   const Vec3f shown = shown_oklab({0.9, 0.3, 0.2});
   EXPECT_LE(std::max({shown.x, shown.y, shown.z}), 1);
   EXPECT_NEAR(oklab_of(shown).x, 0.9, 1e-2);

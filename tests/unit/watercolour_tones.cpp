@@ -13,7 +13,7 @@ constexpr Vec3f kGreen{0.1f, 0.3f, 0.05f}, kRed{0.5f, 0.04f, 0.02f}, kGold{0.6f,
 
 render::Buffers pixels(const std::vector<Vec3f>& leaves) {
   render::Buffers buffers;
-  buffers.resize(static_cast<int>(leaves.size()) + 1, 1);  // and paper
+  buffers.resize(static_cast<int>(leaves.size()) + 1, 1);  // the last pixel is paper
   for (std::size_t i = 0; i < leaves.size(); ++i) {
     buffers.object[i] = render::Object::foliage;
     buffers.color[i] = render::foliage_colour(leaves[i]);

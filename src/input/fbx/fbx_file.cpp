@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "input/fbx/fbx_file.h"
-
 #include <ufbx.h>
 
 #include <cmath>
@@ -10,6 +8,7 @@
 #include <tuple>
 #include <utility>
 
+#include "input/fbx.h"
 #include "input/fbx/fbx_materials.h"
 #include "input/fbx/fbx_mesh.h"
 #include "input/fbx/fbx_text.h"
@@ -81,8 +80,7 @@ class FbxReader {
     }
     if (hidden_ > 0) tree_.warnings.push_back(hidden_meshes(hidden_));
     if (tree_.instances.empty()) {
-      input_error(name_, "", "holds no triangles that are seen",
-                  "Export the tree as polygon meshes.");
+      input_error(name_, "", "holds no visible triangles", "Export the tree as polygon meshes.");
     }
     return std::move(tree_);
   }
@@ -162,8 +160,8 @@ class FbxReader {
 
 }  // namespace
 
-TreeModel read_fbx_file(ByteSpan bytes, const std::string& name, const Companions& companions,
-                        Axes axes) {
+TreeModel read_fbx(ByteSpan bytes, const std::string& name, const Companions& companions,
+                   Axes axes) {
   const Scene scene = load(bytes, name, axes);
   return FbxReader(*scene, name, companions).read();
 }

@@ -73,7 +73,7 @@ Material FbxMaterials::read(const ufbx_material& material) {
     read.alpha_mode = AlphaMode::blend;
   } else if (!opacity && alpha <= 0) {
     tree_.warnings.push_back("material " + in_quotes(read.name) +
-                             " is transparent altogether; it is taken as opaque");
+                             " is fully transparent; it is taken as opaque");
   }
   if (const ufbx_texture* shown = colour ? colour : opacity) {
     read.wrap_u = wrap_of(shown->wrap_u);

@@ -4,8 +4,6 @@
 #include <ufbx.h>
 
 #include <map>
-#include <string>
-#include <utility>
 
 #include "input/companions.h"
 #include "input/image_table.h"

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ranks/mpi/mpi_ranks.h"
-
 #include <cstdlib>
 #include <limits>
 #include <numeric>
 #include <optional>
 
 #include "leafhull/error.h"
+#include "ranks/host.h"
 #include "ranks/mpi/counter_service.h"
 #include "ranks/mpi/host_board.h"
 #include "ranks/mpi/session.h"

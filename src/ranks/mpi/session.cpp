@@ -35,7 +35,7 @@ Session::Session(int launched) {
     if (size_ > 1) throw Error(ErrorCode::usage, library + " was built without threads");
     throw Error(ErrorCode::usage,
                 "leafhull was started as one of " + std::to_string(launched) +
-                    " ranks that do not find each other",
+                    " ranks that cannot find each other",
                 "Use the mpirun of " + library +
                     ", which leafhull is built with; srun needs "
                     "--mpi=pmix there.");
@@ -52,7 +52,7 @@ void check(int result, std::string_view what) {
   int size = 0;
   MPI_Error_string(result, text.data(), &size);
   throw Error(ErrorCode::internal, std::string(what) + " failed: " + text.data(),
-              "See what mpirun says; --resume continues the run.");
+              "Read what mpirun says; --resume continues the run.");
 }
 
 void wait(MPI_Request request, std::mutex& turn) {
