@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "density/spatial_hash.h"
 
-#include <openvdb/tools/PointIndexGrid.h>
+#include <openvdb/tools/PointPartitioner.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
 #include <numeric>
+#include <utility>
 
 namespace leafhull {
 namespace {
 
-using Grid = openvdb::tools::PointIndexGrid;
-using Leaf = Grid::TreeType::LeafNodeType;
+using Partitioner = openvdb::tools::UInt32PointPartitioner;
 
 /// Kernel centres as OpenVDB's PointArray, in cells from the anchor.
 struct Centres {
@@ -38,11 +38,12 @@ std::vector<Vec3d> centres_of(std::span<const Kernel> kernels) {
 }  // namespace
 
 struct SpatialHash::Node {
-  static constexpr int kEdge = Leaf::DIM;
+  static constexpr int kEdge = 1 << Partitioner::LOG2DIM;
+  static constexpr int kCells = kEdge * kEdge * kEdge;
 
   Coord origin;
-  std::uint32_t first;                        // rank
-  std::array<std::uint32_t, Leaf::SIZE> end;  // ranks before the end of each cell, from first
+  std::uint32_t first;                    // rank
+  std::array<std::uint32_t, kCells> end;  // ranks before the end of each cell, from first
 
   std::uint32_t begin_of(int cell) const { return first + (cell > 0 ? end[cell - 1] : 0); }
   std::uint32_t end_of(int cell) const { return first + end[cell]; }
@@ -54,30 +55,32 @@ SpatialHash::SpatialHash(std::span<const Kernel> kernels, const Lattice& cells)
 SpatialHash::SpatialHash(std::span<const Vec3d> centres, const Lattice& cells) : cells_(cells) {
   const auto transform = openvdb::math::Transform::createLinearTransform(1.0);
   transform->postTranslate(openvdb::Vec3d(0.5));  // cells start at whole numbers
-  const Grid::Ptr grid =
-      openvdb::tools::createPointIndexGrid<Grid>(Centres{centres, cells_}, *transform);
+  Partitioner parts;
+  parts.construct(Centres{centres, cells_}, *transform, /*voxelOrder=*/false,
+                  /*recordVoxelOffsets=*/true);
 
-  std::vector<const Leaf*> leaves;
-  grid->tree().getNodes(leaves);
-  std::sort(leaves.begin(), leaves.end(),
-            [](const Leaf* a, const Leaf* b) { return a->origin() < b->origin(); });
-  nodes_.resize(leaves.size());
+  std::vector<std::size_t> ascending(parts.size());
+  std::iota(ascending.begin(), ascending.end(), std::size_t{0});
+  std::ranges::sort(ascending, {}, [&](std::size_t part) { return parts.origin(part); });
+  nodes_.resize(ascending.size());
   std::uint32_t first = 0;
-  for (std::size_t i = 0; i < leaves.size(); ++i) {
-    const openvdb::Coord o = leaves[i]->origin();
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    const openvdb::Coord o = parts.origin(ascending[i]);
     nodes_[i].origin = {o.x(), o.y(), o.z()};
     nodes_[i].first = first;
-    first += static_cast<std::uint32_t>(leaves[i]->indices().size());
+    first += static_cast<std::uint32_t>(parts.indices(ascending[i]).size());
   }
   order_.resize(first);
-  tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t i) {
-    std::copy_n(leaves[i]->buffer().data(), Leaf::SIZE, nodes_[i].end.begin());
-    const auto& indices = leaves[i]->indices();
-    std::copy(indices.begin(), indices.end(), order_.begin() + nodes_[i].first);
-    // The partitioner promises no order within a cell.
-    for (int cell = 0; cell < static_cast<int>(Leaf::SIZE); ++cell) {
-      std::sort(order_.begin() + nodes_[i].begin_of(cell), order_.begin() + nodes_[i].end_of(cell));
-    }
+  tbb::parallel_for(std::size_t{0}, nodes_.size(), [&](std::size_t i) {
+    Node& node = nodes_[i];
+    const std::span ranked(order_.data() + node.first, parts.indices(ascending[i]).size());
+    std::copy_n(&*parts.indices(ascending[i]), ranked.size(), ranked.begin());
+    const auto cell = [&](std::uint32_t point) { return parts.voxelOffsets()[point]; };
+    std::ranges::sort(ranked, {},
+                      [&](std::uint32_t point) { return std::pair(cell(point), point); });
+    node.end.fill(0);
+    for (const std::uint32_t point : ranked) ++node.end[static_cast<std::size_t>(cell(point))];
+    std::partial_sum(node.end.begin(), node.end.end(), node.end.begin());
   });
 }
 
@@ -116,10 +119,11 @@ void SpatialHash::gather(Vec3d low, Vec3d high, std::vector<std::uint32_t>& rank
 std::vector<Box> SpatialHash::occupied() const {
   std::vector<Box> boxes;
   for (const Node& node : nodes_) {
-    for (int cell = 0; cell < static_cast<int>(Leaf::SIZE); ++cell) {
+    for (int cell = 0; cell < Node::kCells; ++cell) {
       if (node.begin_of(cell) == node.end_of(cell)) continue;
-      const openvdb::Coord c = Leaf::offsetToLocalCoord(static_cast<openvdb::Index>(cell));
-      const Vec3d low = to_vec3d(node.origin + Coord{c.x(), c.y(), c.z()});
+      constexpr int kEdge = Node::kEdge;
+      const Coord c{cell / (kEdge * kEdge), cell / kEdge % kEdge, cell % kEdge};
+      const Vec3d low = to_vec3d(node.origin + c);
       boxes.push_back({cells_.world(low), cells_.world(low + Vec3d(1, 1, 1))});
     }
   }

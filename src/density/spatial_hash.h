@@ -10,8 +10,9 @@
 
 namespace leafhull {
 
-/// The spatial hash of kernel centres, an OpenVDB point index grid. It ranks the kernels: by cell,
-/// then by index. N is summed in the order of ranks, so a sum does not depend on who asks for it.
+/// The spatial hash of kernel centres, made by OpenVDB's point partitioner. It ranks the kernels:
+/// by cell, then by index. N is summed in the order of ranks, so a sum does not depend on who asks
+/// for it.
 class SpatialHash {
  public:
   /// `cells`: a lattice whose voxels are the hash's cells, anchored near the kernels; cells of the
@@ -37,7 +38,7 @@ class SpatialHash {
  private:
   struct Node;
   Lattice cells_;
-  std::vector<Node> nodes_;  // of the grid, 8 x 8 x 8 cells each, ascending
+  std::vector<Node> nodes_;  // 8 x 8 x 8 cells each, ascending
   std::vector<std::uint32_t> order_;
 };
 

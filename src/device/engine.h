@@ -96,14 +96,13 @@ struct Device::Engine {
   /// Waits for the device and makes its results visible in `values`.
   template <class T>
   void fetch(const cl::Buffer& buffer, std::span<T> values) {
-    if (values.empty()) return;
-    if (shares_memory()) {
+    if (!values.empty() && shares_memory()) {
       void* mapped = queue.enqueueMapBuffer(buffer, CL_TRUE, CL_MAP_READ, 0, values.size_bytes());
       queue.enqueueUnmapMemObject(buffer, mapped);
-      queue.finish();
-    } else {
+    } else if (!values.empty()) {
       queue.enqueueReadBuffer(buffer, CL_TRUE, 0, values.size_bytes(), values.data());
     }
+    queue.finish();
   }
 };
 

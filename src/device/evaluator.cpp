@@ -11,9 +11,16 @@ namespace leafhull {
 namespace {
 
 constexpr std::size_t kWorkItems = 256;  // per brick, as in density_work_item.cl
-constexpr std::size_t kPointsPerGroup = 64;
 // PoCL compiles a kernel again for grids of 65,536 groups and more.
-constexpr std::size_t kBricksPerLaunch = 1 << 15;
+constexpr std::size_t kMostPerLaunch = 1 << 15;  // bricks or groups of points
+/// Marks per launch, 16 MiB of them, unless a group alone has more.
+constexpr std::size_t kMarksPerLaunch = std::size_t{1} << 22;
+constexpr std::size_t kRun = 32;  // kernels, as in points.cl
+
+/// A word of marks per chunk for each run of a group's list.
+std::size_t marks_of(const PointGroup& group) {
+  return (group.end - group.first + kRun - 1) / kRun * kGroupChunks;
+}
 
 }  // namespace
 
@@ -22,18 +29,31 @@ struct Evaluator::Impl {
   int falloff;
   cl::Buffer kernels;
 
-  /// Runs a kernel over the points of a batch.
+  /// Runs a kernel over the points of a batch, a launch's share at a time.
   template <class... Arguments>
-  void over_points(const char* name, const PointBatch& batch, const Arguments&... arguments) {
+  void over_points(const char* name, PointBatch& batch, const Arguments&... arguments) {
     cl::Kernel kernel = engine.kernel(name, falloff);
-    const cl::Buffer chunks = engine.input(batch.chunks), list = engine.input(batch.kernels);
-    const auto count = static_cast<cl_uint>(batch.chunks.size());
-    set_arguments(kernel, kernels, chunks, count, list, arguments...);
-    const std::size_t group = engine.vector() ? 1 : kPointsPerGroup;
-    const std::size_t items = engine.vector() ? count : count * engine.chunk_points();
-    engine.queue.enqueueNDRangeKernel(kernel, cl::NullRange,
-                                      cl::NDRange((items + group - 1) / group * group),
-                                      cl::NDRange(group));
+    const cl::Buffer list = engine.input(batch.bricks.kernels);
+    const std::size_t items = engine.vector() ? 1 : kGroupChunks * batch.chunk_points;
+    for (std::size_t begin = 0, end = 0; begin < batch.groups.size(); begin = end) {
+      std::size_t marks = 0;
+      for (; end < std::min(begin + kMostPerLaunch, batch.groups.size()); ++end) {
+        PointGroup& group = batch.groups[end];
+        const std::size_t more_marks = marks_of(group);
+        if (end > begin && marks + more_marks > kMarksPerLaunch) break;
+        group.marks = static_cast<std::uint32_t>(marks);
+        marks += more_marks;
+      }
+      const auto part = [&](const auto& all) {
+        return engine.buffer(std::span(all).subspan(begin, end - begin), CL_MEM_READ_ONLY);
+      };
+      const cl::Buffer groups = part(batch.groups), boxes = part(batch.boxes);
+      const cl::Buffer scratch(engine.context, CL_MEM_READ_WRITE,
+                               std::max<std::size_t>(marks, 1) * sizeof(std::uint32_t));
+      set_arguments(kernel, kernels, groups, list, boxes, scratch, arguments...);
+      engine.queue.enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange((end - begin) * items),
+                                        cl::NDRange(items));
+    }
   }
 };
 
@@ -59,8 +79,8 @@ std::uint64_t Evaluator::sample(const BrickList& bricks, std::span<float> sample
     cl::Kernel kernel = d.engine.kernel("density_bricks", d.falloff);
     const cl::Buffer list = d.engine.input(bricks.kernels);
     const std::size_t items = d.engine.vector() ? 1 : kWorkItems;
-    for (std::size_t begin = 0; begin < bricks.size(); begin += kBricksPerLaunch) {
-      const std::size_t count = std::min(kBricksPerLaunch, bricks.size() - begin);
+    for (std::size_t begin = 0; begin < bricks.size(); begin += kMostPerLaunch) {
+      const std::size_t count = std::min(kMostPerLaunch, bricks.size() - begin);
       const auto out = samples.subspan(begin * kBrickSamples, count * kBrickSamples);
       const auto out_pairs = std::span(pairs).subspan(begin, count);
       const cl::Buffer origins_in = d.engine.buffer(
@@ -81,7 +101,7 @@ std::uint64_t Evaluator::sample(const BrickList& bricks, std::span<float> sample
   return total;
 }
 
-std::vector<float> Evaluator::density(const PointBatch& batch) {
+std::vector<float> Evaluator::density(PointBatch& batch) {
   Impl& d = *impl_;
   std::vector<float> density(batch.index.size());
   d.engine.run("evaluating the density at points", [&] {
@@ -120,10 +140,9 @@ void prepare(Device& device, int falloff) {
   std::vector<float> samples(kBrickSamples);
   nothing.sample(brick, samples);
   PointBatch points;
-  points.chunks.resize(1);
   points.chunk_points = nothing.chunk_points();
-  points.index.resize(points.chunk_points);
-  for (auto* v : {&points.x, &points.y, &points.z}) v->resize(points.chunk_points);
+  points.groups.resize(1);
+  points.boxes.resize(1);
   nothing.density(points);
   nothing.snap(points, 1, 1);
 }

@@ -1,58 +1,32 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "surface/metrics.h"
 
-#include <openvdb/openvdb.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_reduce.h>
+#include <tbb/parallel_sort.h>
 
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <memory>
+#include <utility>
+#include <vector>
 
 #include "density/field_grid.h"
 
 namespace leafhull {
 namespace {
 
-namespace util = openvdb::util;
-using openvdb::MaskTree;
-using MaskAccessor = openvdb::tree::ValueAccessor<const MaskTree>;
+using Accessor = openvdb::FloatGrid::ConstAccessor;
 
-/// The samples of a brick with N >= T.
-util::NodeMask<3> inside_samples(const Brick& negated, float iso) {
-  util::NodeMask<3> inside;
-  const float* values = negated.buffer().data();
-  for (openvdb::Index x = 0; x < kBrickEdge; ++x) {
-    std::uint64_t layer = 0;
-    for (int yz = 0; yz < 64; ++yz) layer |= std::uint64_t{*values++ < iso} << yz;
-    inside.getWord<std::uint64_t>(x) = layer;
-  }
-  return inside;
-}
-
-/// The samples with N >= T.
-MaskTree inside_samples(const Field& field) {
-  const openvdb::FloatTree& negated = negated_grid(field).tree();
-  MaskTree inside(negated, false, openvdb::TopologyCopy());
-  std::vector<MaskTree::LeafNodeType*> leaves;
-  inside.getNodes(leaves);
-  tbb::parallel_for(std::size_t{0}, leaves.size(), [&, iso = field.iso_value()](std::size_t i) {
-    const Brick* brick = negated.probeConstLeaf(leaves[i]->origin());
-    leaves[i]->setValueMask(inside_samples(*brick, iso));
-  });
-  for (const Block& block : field.inside()) inside.fill(samples_of(block), true);
-  return inside;
-}
-
-/// A brick's 64 samples at one x; bit 8 y + z.
-std::uint64_t layer(const MaskAccessor& inside, const openvdb::Coord& at) {
-  if (const MaskTree::LeafNodeType* leaf = inside.probeConstLeaf(at)) {
-    return leaf->valueMask().getWord<std::uint64_t>(
-        static_cast<openvdb::Index>(at.x() & (kBrickEdge - 1)));
-  }
-  return inside.isValueOn(at) ? ~std::uint64_t{0} : 0;
+/// Whether N >= T at 64 samples of a brick that share an x; bit 8 y + z.
+std::uint64_t inside_layer(const Accessor& negated, float iso, const openvdb::Coord& at) {
+  const Brick* brick = negated.probeConstLeaf(at);
+  if (!brick) return negated.getValue(at) < iso ? ~std::uint64_t{0} : 0;
+  const float* values = brick->buffer().data() + 64 * (at.x() & (kBrickEdge - 1));
+  std::uint64_t layer = 0;
+  for (int yz = 0; yz < 64; ++yz) layer |= std::uint64_t{*values++ < iso} << yz;
+  return layer;
 }
 
 /// The squares between the samples of a layer and their neighbours in y and z, at the bits of their
@@ -61,16 +35,17 @@ struct Squares {
   std::uint64_t all, some;  ///< corners inside
 };
 
-Squares squares(const MaskAccessor& inside, const openvdb::Coord& at) {
+Squares squares(const Accessor& negated, float iso, const openvdb::Coord& at) {
+  const auto layer = [&](int y, int z) { return inside_layer(negated, iso, at.offsetBy(0, y, z)); };
   const auto next_y = [](std::uint64_t here, std::uint64_t above) {
     return here >> 8 | above << 56;
   };
   const auto next_z = [](std::uint64_t here, std::uint64_t above) {
     return (here >> 1 & 0x7f7f7f7f7f7f7f7f) | (above << 7 & 0x8080808080808080);
   };
-  const std::uint64_t low = layer(inside, at), y_low = layer(inside, at.offsetBy(0, 8, 0));
-  const std::uint64_t z = next_z(low, layer(inside, at.offsetBy(0, 0, 8)));
-  const std::uint64_t y_z = next_z(y_low, layer(inside, at.offsetBy(0, 8, 8)));
+  const std::uint64_t low = layer(0, 0), y_low = layer(8, 0);
+  const std::uint64_t z = next_z(low, layer(0, 8));
+  const std::uint64_t y_z = next_z(y_low, layer(8, 8));
   const std::uint64_t y = next_y(low, y_low), yz = next_y(z, y_z);
   return {low & z & y & yz, low | z | y | yz};
 }
@@ -82,11 +57,11 @@ struct VoxelCount {
   }
 };
 
-VoxelCount count_brick(const MaskAccessor& inside, const openvdb::Coord& origin) {
+VoxelCount count_brick(const Accessor& negated, float iso, const openvdb::Coord& origin) {
   VoxelCount count;
-  Squares low = squares(inside, origin);
+  Squares low = squares(negated, iso, origin);
   for (int x = 1; x <= kBrickEdge; ++x) {
-    const Squares high = squares(inside, origin.offsetBy(x, 0, 0));
+    const Squares high = squares(negated, iso, origin.offsetBy(x, 0, 0));
     const std::uint64_t all = low.all & high.all, some = low.some | high.some;
     count = count + VoxelCount{static_cast<std::uint64_t>(std::popcount(all)),
                                static_cast<std::uint64_t>(std::popcount(some & ~all))};
@@ -98,13 +73,12 @@ VoxelCount count_brick(const MaskAccessor& inside, const openvdb::Coord& origin)
 /// A cell with a corner in an evaluated brick has its lowest corner there or in a neighbour. If the
 /// neighbour was not evaluated, it and the cell are proven to lie on one side.
 VoxelCount count_voxels(const Field& field) {
-  const MaskTree inside = inside_samples(field);
   VoxelCount count = tbb::parallel_reduce(
       tbb::blocked_range<std::size_t>(0, bricks_of(field).size()), VoxelCount{},
       [&](const tbb::blocked_range<std::size_t>& bricks, VoxelCount sum) {
-        const MaskAccessor accessor(inside);
+        const Accessor negated = negated_grid(field).getConstAccessor();
         for (std::size_t b = bricks.begin(); b < bricks.end(); ++b) {
-          sum = sum + count_brick(accessor, bricks_of(field)[b]->origin());
+          sum = sum + count_brick(negated, field.iso_value(), bricks_of(field)[b]->origin());
         }
         return sum;
       },
@@ -119,7 +93,7 @@ VoxelCount count_voxels(const Field& field) {
 /// -N at the corners of a cell.
 using Corners = std::array<float, 8>;
 
-Corners corners_of(const openvdb::FloatGrid::ConstAccessor& negated, Coord cell) {
+Corners corners_of(const Accessor& negated, Coord cell) {
   Corners corners;
   for (int i = 0; i < 8; ++i) {
     const Coord at = corner(cell, i);
@@ -139,19 +113,26 @@ double interpolate(const Corners& corners, Vec3d at) {
 
 /// Where the leaf vertices lie.
 struct Placed {
-  MaskTree::Ptr cells = std::make_shared<MaskTree>();  ///< cells of the shape that hold a vertex
-  std::uint64_t off_site = 0;                          ///< vertices outside the shape
+  std::vector<Coord> cells;    ///< cells of the shape that hold a vertex, some more than once
+  std::uint64_t off_site = 0;  ///< vertices outside the shape
+
+  void append(const Placed& other) {
+    cells.insert(cells.end(), other.cells.begin(), other.cells.end());
+    off_site += other.off_site;
+  }
 };
 
 void place(std::span<const Vec3d> leaf_vertices, const Field& field, Placed& placed) {
-  const openvdb::FloatGrid::ConstAccessor negated = negated_grid(field).getConstAccessor();
-  openvdb::tree::ValueAccessor<MaskTree> cells(*placed.cells);
+  const Accessor negated = negated_grid(field).getConstAccessor();
   const float iso = field.iso_value();
   for (const Vec3d p : leaf_vertices) {
     const Coord cell = cell_of(p);
     const Corners corners = corners_of(negated, cell);
-    const auto inside = count_inside(corners, iso);
-    if (inside > 0) cells.setValueOn(openvdb::Coord(cell.x, cell.y, cell.z));
+    const auto inside =
+        std::count_if(corners.begin(), corners.end(), [&](float n) { return n < iso; });
+    if (inside > 0 && (placed.cells.empty() || placed.cells.back() != cell)) {
+      placed.cells.push_back(cell);
+    }
     const bool on = 0 < inside && inside < 8;
     placed.off_site +=
         inside == 0 || (on && interpolate(corners, p - to_vec3d(cell)) > -field.threshold());
@@ -165,15 +146,17 @@ Placed place(std::span<const Vec3d> leaf_vertices, const Field& field) {
                       place(leaf_vertices.subspan(r.begin(), r.size()), field, parts.local());
                     });
   Placed all;
-  for (const Placed& part : parts) {
-    all.cells->topologyUnion(*part.cells);
-    all.off_site += part.off_site;
-  }
+  for (const Placed& part : parts) all.append(part);
   return all;
 }
 
+std::uint64_t count_different(std::vector<Coord> cells) {
+  tbb::parallel_sort(cells);
+  return static_cast<std::uint64_t>(std::unique(cells.begin(), cells.end()) - cells.begin());
+}
+
 /// Whether a place belongs to the shape.
-bool is_in_shape(Vec3d place, const Field& field, const openvdb::FloatGrid::ConstAccessor& negated,
+bool is_in_shape(Vec3d place, const Field& field, const Accessor& negated,
                  std::span<const Coord> dropped) {
   const float iso = field.iso_value();
   Coord cell = cell_of(place);
@@ -198,7 +181,7 @@ double share_outside(const Field& field, std::span<const Vec3d> places,
   const auto outside = tbb::parallel_reduce(
       tbb::blocked_range<std::size_t>(0, places.size(), 256), std::size_t{0},
       [&](const tbb::blocked_range<std::size_t>& r, std::size_t count) {
-        const openvdb::FloatGrid::ConstAccessor negated = negated_grid(field).getConstAccessor();
+        const Accessor negated = negated_grid(field).getConstAccessor();
         for (std::size_t i = r.begin(); i < r.end(); ++i) {
           count += !is_in_shape(places[i], field, negated, dropped);
         }
@@ -210,13 +193,14 @@ double share_outside(const Field& field, std::span<const Vec3d> places,
 
 Metrics measure(const Field& field, std::span<const Vec3d> places, std::span<const Vec3d> others) {
   const VoxelCount voxels = count_voxels(field);
-  const Placed placed = place(places, field);
-  placed.cells->topologyUnion(*place(others, field).cells);
+  Placed placed = place(places, field);
+  const std::uint64_t off_site = placed.off_site;
+  placed.append(place(others, field));
   Metrics metrics;
   metrics.inside_voxels = voxels.inside;
   metrics.on_voxels = voxels.on;
-  metrics.dilated_voxels = voxels.inside + voxels.on - placed.cells->activeVoxelCount();
-  metrics.off_site_sampled = placed.off_site;
+  metrics.dilated_voxels = voxels.inside + voxels.on - count_different(std::move(placed.cells));
+  metrics.off_site_sampled = off_site;
   return metrics;
 }
 
