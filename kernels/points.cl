@@ -31,7 +31,7 @@ typedef struct {
   int origin[3];       // points are offsets from there, voxels
   uint first, end;     // the kernels that may reach them, in the list
   uint chunk, chunks;  // the first of its chunks, and their number
-  uint marks;          // where its marks are
+  uint entry;          // where its list is in the scratch space of a launch, a multiple of RUN
 } Group;
 
 // Loops over the chunks that a work-item takes; its points are at LOAD and STORE.
@@ -74,14 +74,31 @@ typedef struct {
   Boxes x, y, z, half_x, half_y, half_z;
 } ChunkBoxes;
 
-static Marks marks_of(global const Kernel* kernels, global const uint* list, uint count,
-                      int4 origin, ChunkBoxes boxes) {
+// A kernel of a group's list, its centre counted from the group's origin.
+typedef struct {
+  float x, y, z;
+  float xx, xy, xz, yy, yz, zz;
+  float top;
+} NearKernel;
+
+static NearKernel near_kernel(global const Kernel* k, global const Group* group) {
+  return (NearKernel){(float)(k->cell[0] - group->origin[0]) + k->offset[0],
+                      (float)(k->cell[1] - group->origin[1]) + k->offset[1],
+                      (float)(k->cell[2] - group->origin[2]) + k->offset[2],
+                      k->xx,
+                      k->xy,
+                      k->xz,
+                      k->yy,
+                      k->yz,
+                      k->zz,
+                      k->top};
+}
+
+static Marks marks_of(global const NearKernel* near, uint count, ChunkBoxes boxes) {
   Marks marks = 0;
   for (uint i = 0; i < count; ++i) {
-    global const Kernel* k = kernels + list[i];
-    const Boxes dx = boxes.x - ((float)(k->cell[0] - origin.x) + k->offset[0]);
-    const Boxes dy = boxes.y - ((float)(k->cell[1] - origin.y) + k->offset[1]);
-    const Boxes dz = boxes.z - ((float)(k->cell[2] - origin.z) + k->offset[2]);
+    global const NearKernel* k = near + i;
+    const Boxes dx = boxes.x - k->x, dy = boxes.y - k->y, dz = boxes.z - k->z;
     const float xy = fabs(k->xy), xz = fabs(k->xz), yz = fabs(k->yz);
     const Boxes mx = fabs(fma((Boxes)(k->xx), dx, fma((Boxes)(k->xy), dy, k->xz * dz)));
     const Boxes my = fabs(fma((Boxes)(k->yy), dy, k->yz * dz));
@@ -99,29 +116,35 @@ static Marks marks_of(global const Kernel* kernels, global const uint* list, uin
   return marks;
 }
 
-// Marks the kernels of a group's list that reach its chunks. `boxes` has CHUNKS numbers for each
-// member of ChunkBoxes.
+// Fetches the kernels of a group's list and marks those that reach its chunks. `boxes` has CHUNKS
+// numbers for each member of ChunkBoxes.
 static void mark(global const Kernel* kernels, global const Group* group, global const uint* list,
-                 global const float* boxes, global uint* marks) {
-  const int4 origin = {group->origin[0], group->origin[1], group->origin[2], 0};
-  const uint runs = (group->end - group->first + RUN - 1) / RUN;
-  list += group->first;
+                 global const float* boxes, global NearKernel* near, global uint* marks) {
+  const uint size = group->end - group->first;
+  const uint runs = (size + RUN - 1) / RUN;
 #if LANES == 1
-  for (uint i = (uint)get_local_id(0); i < runs * CHUNKS; i += (uint)get_local_size(0)) {
-    const uint run = i / CHUNKS;
+  const uint item = (uint)get_local_id(0), items = (uint)get_local_size(0);
+  for (uint i = item; i < size; i += items) {
+    near[i] = near_kernel(kernels + list[group->first + i], group);
+  }
+  barrier(CLK_GLOBAL_MEM_FENCE);
+  for (uint i = item; i < runs * CHUNKS; i += items) {
+    const uint begin = i / CHUNKS * RUN;
     global const float* b = boxes + i % CHUNKS;
     const ChunkBoxes box = {b[0],          b[CHUNKS],     b[2 * CHUNKS],
                             b[3 * CHUNKS], b[4 * CHUNKS], b[5 * CHUNKS]};
-    const uint count = min((uint)RUN, group->end - group->first - run * RUN);
-    marks[i] = marks_of(kernels, list + run * RUN, count, origin, box);
+    marks[i] = marks_of(near + begin, min((uint)RUN, size - begin), box);
   }
   barrier(CLK_GLOBAL_MEM_FENCE);
 #else
+  for (uint i = 0; i < size; ++i) {
+    near[i] = near_kernel(kernels + list[group->first + i], group);
+  }
   const ChunkBoxes all = {vload8(0, boxes), vload8(1, boxes), vload8(2, boxes),
                           vload8(3, boxes), vload8(4, boxes), vload8(5, boxes)};
   for (uint run = 0; run < runs; ++run) {
-    const uint count = min((uint)RUN, group->end - group->first - run * RUN);
-    vstore8(marks_of(kernels, list + run * RUN, count, origin, all), run, marks);
+    const uint begin = run * RUN;
+    vstore8(marks_of(near + begin, min((uint)RUN, size - begin), all), run, marks);
   }
 #endif
 }
@@ -138,18 +161,15 @@ typedef struct {
 } Sample;
 
 // Sums at the points of a chunk; `marks` are those of the chunk.
-static Sample density_at(global const Kernel* kernels, global const Group* group,
-                         global const uint* list, global const uint* marks, Real3 p) {
-  const int4 origin = {group->origin[0], group->origin[1], group->origin[2], 0};
+static Sample density_at(global const NearKernel* near, uint size, global const uint* marks,
+                         Real3 p) {
   Sample s = {REAL(0.0f), {REAL(0.0f), REAL(0.0f), REAL(0.0f)}};
-  for (uint run = group->first; run < group->end; run += RUN, marks += CHUNKS) {
+  for (uint begin = 0; begin < size; begin += RUN, marks += CHUNKS) {
     for (uint marked = *marks; marked;) {
       const uint i = clz(marked);
       marked ^= FIRST_OF_RUN >> i;
-      global const Kernel* k = kernels + list[run + i];
-      // The fourth components are unused.
-      const float4 centre = convert_float4(vload4(0, k->cell) - origin) + vload4(0, k->offset);
-      const real dx = p.x - centre.x, dy = p.y - centre.y, dz = p.z - centre.z;
+      global const NearKernel* k = near + begin + i;
+      const real dx = p.x - k->x, dy = p.y - k->y, dz = p.z - k->z;
       const real u = fma(REAL(k->xx), dx, fma(REAL(k->xy), dy, k->xz * dz));
       const real v = fma(REAL(k->yy), dy, k->yz * dz);
       const real n = k->zz * dz;
@@ -169,15 +189,17 @@ static Sample density_at(global const Kernel* kernels, global const Group* group
 // N at the points of each group.
 kernel void density_points(global const Kernel* restrict kernels,
                            global const Group* restrict groups, global const uint* restrict list,
-                           global const float* restrict boxes, global uint* restrict all_marks,
-                           global const float* restrict xs, global const float* restrict ys,
-                           global const float* restrict zs, global float* restrict density) {
+                           global const float* restrict boxes, global NearKernel* restrict all_near,
+                           global uint* restrict all_marks, global const float* restrict xs,
+                           global const float* restrict ys, global const float* restrict zs,
+                           global float* restrict density) {
   global const Group* group = groups + GROUP;
-  global uint* marks = all_marks + group->marks;
-  mark(kernels, group, list, boxes + GROUP * 6 * CHUNKS, marks);
+  global NearKernel* near = all_near + group->entry;
+  global uint* marks = all_marks + group->entry / RUN * CHUNKS;
+  mark(kernels, group, list, boxes + GROUP * 6 * CHUNKS, near, marks);
   FOR_EACH_CHUNK(c) {
     const Real3 p = {LOAD(c, xs), LOAD(c, ys), LOAD(c, zs)};
-    STORE(density_at(kernels, group, list, marks + c, p).density, c, density);
+    STORE(density_at(near, group->end - group->first, marks + c, p).density, c, density);
   }
 }
 
@@ -233,13 +255,15 @@ static Real3 corner_of(Real3 low, int i) {
 // each place that sums.
 kernel void snap_points(global const Kernel* restrict kernels, global const Group* restrict groups,
                         global const uint* restrict list, global const float* restrict boxes,
-                        global uint* restrict all_marks, float threshold, int steps,
-                        global float* restrict xs, global float* restrict ys,
-                        global float* restrict zs, global float* restrict nxs,
-                        global float* restrict nys, global float* restrict nzs) {
+                        global NearKernel* restrict all_near, global uint* restrict all_marks,
+                        float threshold, int steps, global float* restrict xs,
+                        global float* restrict ys, global float* restrict zs,
+                        global float* restrict nxs, global float* restrict nys,
+                        global float* restrict nzs) {
   global const Group* group = groups + GROUP;
-  global uint* marks = all_marks + group->marks;
-  mark(kernels, group, list, boxes + GROUP * 6 * CHUNKS, marks);
+  global NearKernel* near = all_near + group->entry;
+  global uint* marks = all_marks + group->entry / RUN * CHUNKS;
+  mark(kernels, group, list, boxes + GROUP * 6 * CHUNKS, near, marks);
   FOR_EACH_CHUNK(c) {
     const int corners = steps + 8, end = steps > 0 ? corners + HALVINGS : 0;
     Real3 p = {LOAD(c, xs), LOAD(c, ys), LOAD(c, zs)};
@@ -251,7 +275,7 @@ kernel void snap_points(global const Kernel* restrict kernels, global const Grou
     real nearest = REAL(INFINITY), before = REAL(0.0f), behind = REAL(1.0f), t = REAL(0.5f);
     Vertex start = best;
     for (int i = 0;; ++i) {
-      const Sample s = density_at(kernels, group, list, marks + c, p);
+      const Sample s = density_at(near, group->end - group->first, marks + c, p);
       const Vertex v = {p, s.gradient, s.density - threshold};
       if (i <= steps || i > corners) {
         const truth closer = off & (fabs(v.miss) < fabs(best.miss));

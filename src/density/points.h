@@ -21,7 +21,7 @@ struct PointGroup {
   Coord origin;                        ///< of the frame that holds them
   std::uint32_t first = 0, end = 0;    ///< into PointBatch::bricks.kernels: the list of their brick
   std::uint32_t chunk = 0, count = 0;  ///< its first chunk, and their number
-  std::uint32_t marks = 0;             ///< where a launch keeps its marks
+  std::uint32_t entry = 0;             ///< its place in the scratch space of a launch
 };
 static_assert(sizeof(PointGroup) == 32);
 

@@ -13,13 +13,17 @@ namespace {
 constexpr std::size_t kWorkItems = 256;  // per brick, as in density_work_item.cl
 // PoCL compiles a kernel again for grids of 65,536 groups and more.
 constexpr std::size_t kMostPerLaunch = 1 << 15;  // bricks or groups of points
-/// Marks per launch, 16 MiB of them, unless a group alone has more.
-constexpr std::size_t kMarksPerLaunch = std::size_t{1} << 22;
-constexpr std::size_t kRun = 32;  // kernels, as in points.cl
+/// Scratch space of a launch: entries of lists, unless a group alone has more; 42 MiB.
+constexpr std::size_t kMostEntries = std::size_t{1} << 20;
 
-/// A word of marks per chunk for each run of a group's list.
-std::size_t marks_of(const PointGroup& group) {
-  return (group.end - group.first + kRun - 1) / kRun * kGroupChunks;
+// As in points.cl.
+constexpr std::size_t kRun = 32;
+using NearKernel = std::array<float, 10>;
+using Marks = std::array<std::uint32_t, kGroupChunks>;
+
+/// The entries of a group's list, in whole runs.
+std::size_t entries_of(const PointGroup& group) {
+  return (group.end - group.first + kRun - 1) / kRun * kRun;
 }
 
 }  // namespace
@@ -29,6 +33,11 @@ struct Evaluator::Impl {
   int falloff;
   cl::Buffer kernels;
 
+  template <class T>
+  cl::Buffer scratch(std::size_t size) const {
+    return {engine.context, CL_MEM_READ_WRITE, std::max<std::size_t>(size, 1) * sizeof(T)};
+  }
+
   /// Runs a kernel over the points of a batch, a launch's share at a time.
   template <class... Arguments>
   void over_points(const char* name, PointBatch& batch, const Arguments&... arguments) {
@@ -36,21 +45,19 @@ struct Evaluator::Impl {
     const cl::Buffer list = engine.input(batch.bricks.kernels);
     const std::size_t items = engine.vector() ? 1 : kGroupChunks * batch.chunk_points;
     for (std::size_t begin = 0, end = 0; begin < batch.groups.size(); begin = end) {
-      std::size_t marks = 0;
+      std::size_t entries = 0;
       for (; end < std::min(begin + kMostPerLaunch, batch.groups.size()); ++end) {
         PointGroup& group = batch.groups[end];
-        const std::size_t more_marks = marks_of(group);
-        if (end > begin && marks + more_marks > kMarksPerLaunch) break;
-        group.marks = static_cast<std::uint32_t>(marks);
-        marks += more_marks;
+        if (end > begin && entries + entries_of(group) > kMostEntries) break;
+        group.entry = static_cast<std::uint32_t>(entries);
+        entries += entries_of(group);
       }
       const auto part = [&](const auto& all) {
         return engine.buffer(std::span(all).subspan(begin, end - begin), CL_MEM_READ_ONLY);
       };
       const cl::Buffer groups = part(batch.groups), boxes = part(batch.boxes);
-      const cl::Buffer scratch(engine.context, CL_MEM_READ_WRITE,
-                               std::max<std::size_t>(marks, 1) * sizeof(std::uint32_t));
-      set_arguments(kernel, kernels, groups, list, boxes, scratch, arguments...);
+      const cl::Buffer near = scratch<NearKernel>(entries), marks = scratch<Marks>(entries / kRun);
+      set_arguments(kernel, kernels, groups, list, boxes, near, marks, arguments...);
       engine.queue.enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange((end - begin) * items),
                                         cl::NDRange(items));
     }
