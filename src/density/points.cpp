@@ -4,6 +4,7 @@
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_sort.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <cmath>
@@ -13,8 +14,8 @@ namespace leafhull {
 namespace {
 
 /// The most points of a root block that are searched together.
-constexpr std::size_t kClusterPoints = std::size_t{1} << 16;
-/// About the size of a batch: 4 MiB of ranks or as much of points.
+constexpr std::size_t kClusterPoints = std::size_t{1} << 14;
+/// A batch is handed over at about 4 MiB of ranks or of points.
 constexpr std::size_t kBatchRanks = std::size_t{1} << 20;
 constexpr std::size_t kBatchPoints = std::size_t{1} << 18;
 
@@ -141,6 +142,17 @@ class Search {
     }
   }
 
+  /// The offset of a point from its frame, rounded so that its cell stays the same.
+  static Vec3f offset_in(Coord frame, Vec3d point) {
+    const Vec3f offset(point - to_vec3d(frame));
+    const Vec3d end = to_vec3d(cell_of(point)) - to_vec3d(frame) + Vec3d(1, 1, 1);
+    const auto below = [](float v, double end) {
+      const auto limit = static_cast<float>(end);
+      return v < limit ? v : std::nextafter(limit, 0.0f);
+    };
+    return {below(offset.x, end.x), below(offset.y, end.y), below(offset.z, end.z)};
+  }
+
   /// Adds a group to the last brick.
   template <class T>
   void add_group(std::span<const Vec3<T>> points, Coord frame, std::span<const Member> members,
@@ -154,7 +166,7 @@ class Search {
       Vec3f low, high;
       for (std::size_t lane = 0; lane < n; ++lane) {
         const std::uint32_t point = of_chunk[std::min(lane, of_chunk.size() - 1)].point;
-        const Vec3f p(Vec3d(points[point]) - to_vec3d(frame));
+        const Vec3f p = offset_in(frame, Vec3d(points[point]));
         batch.index.push_back(point);
         batch.x.push_back(p.x), batch.y.push_back(p.y), batch.z.push_back(p.z);
         low = lane == 0 ? p : least(low, p), high = lane == 0 ? p : most(high, p);
@@ -203,27 +215,29 @@ void find_near(const KernelSet& set, std::span<const Vec3<T>> points, Within wit
   const std::vector<Run> runs = sorted_runs(points);
   const std::vector<Cluster> clusters = in_clusters(runs);
   tbb::enumerable_thread_specific<Search> searches([&] { return Search(set, within); });
+  const auto threads = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
   PointBatch batch;
-  std::size_t step = 4;  // clusters searched at once
+  std::size_t step = threads;  // clusters searched at once, fewer if they have many points
   for (std::size_t begin = 0, end = 0; begin < clusters.size(); begin = end) {
-    end = std::min(begin + step, clusters.size());
+    for (std::size_t ahead = 0; end < std::min(begin + step, clusters.size()); ++end) {
+      if (ahead >= kBatchPoints && end >= begin + threads) break;
+      ahead += clusters[end].points;
+    }
     std::vector<PointBatch> found(end - begin);
     tbb::parallel_for(begin, end, [&](std::size_t c) {
       found[c - begin] = searches.local()(points, clusters[c], chunk_points);
     });
     std::size_t longest = 1;
-    for (const PointBatch& one : found) {
-      batch.append(one);
+    for (PointBatch& one : found) {
       longest = std::max(longest, one.bricks.kernels.size());
-    }
-    const bool full =
-        batch.bricks.kernels.size() >= kBatchRanks || batch.index.size() >= kBatchPoints;
-    if (full || end == clusters.size()) {
+      batch.append(std::exchange(one, {}));
+      if (batch.bricks.kernels.size() < kBatchRanks && batch.index.size() < kBatchPoints) continue;
       visit(batch);
       batch = {};
     }
-    step = std::clamp<std::size_t>(kBatchRanks / longest, 1, 4 * step);
+    step = std::clamp(kBatchRanks / longest, threads, 4 * step);
   }
+  if (!batch.groups.empty()) visit(batch);
 }
 
 template <class T>

@@ -26,6 +26,23 @@ std::size_t entries_of(const PointGroup& group) {
   return (group.end - group.first + kRun - 1) / kRun * kRun;
 }
 
+/// Where each launch over `groups` ends. Gives the groups their places in its scratch space.
+std::vector<std::size_t> in_launches(std::span<PointGroup> groups) {
+  std::vector<std::size_t> ends;
+  std::size_t begin = 0, entries = 0;
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    const std::size_t more = entries_of(groups[g]);
+    if (g > begin && (entries + more > kMostEntries || g - begin == kMostPerLaunch)) {
+      ends.push_back(g);
+      begin = g, entries = 0;
+    }
+    groups[g].entry = static_cast<std::uint32_t>(entries);
+    entries += more;
+  }
+  if (!groups.empty()) ends.push_back(groups.size());
+  return ends;
+}
+
 }  // namespace
 
 struct Evaluator::Impl {
@@ -44,22 +61,21 @@ struct Evaluator::Impl {
     cl::Kernel kernel = engine.kernel(name, falloff);
     const cl::Buffer list = engine.input(batch.bricks.kernels);
     const std::size_t items = engine.vector() ? 1 : kGroupChunks * batch.chunk_points;
-    for (std::size_t begin = 0, end = 0; begin < batch.groups.size(); begin = end) {
-      std::size_t entries = 0;
-      for (; end < std::min(begin + kMostPerLaunch, batch.groups.size()); ++end) {
-        PointGroup& group = batch.groups[end];
-        if (end > begin && entries + entries_of(group) > kMostEntries) break;
-        group.entry = static_cast<std::uint32_t>(entries);
-        entries += entries_of(group);
-      }
+    const std::vector<std::size_t> ends = in_launches(batch.groups);
+    // Launches take turns in one scratch space.
+    std::size_t entries = 0;
+    for (const PointGroup& g : batch.groups) entries = std::max(entries, g.entry + entries_of(g));
+    const cl::Buffer near = scratch<NearKernel>(entries), marks = scratch<Marks>(entries / kRun);
+    std::size_t begin = 0;
+    for (const std::size_t end : ends) {
       const auto part = [&](const auto& all) {
         return engine.buffer(std::span(all).subspan(begin, end - begin), CL_MEM_READ_ONLY);
       };
       const cl::Buffer groups = part(batch.groups), boxes = part(batch.boxes);
-      const cl::Buffer near = scratch<NearKernel>(entries), marks = scratch<Marks>(entries / kRun);
       set_arguments(kernel, kernels, groups, list, boxes, near, marks, arguments...);
       engine.queue.enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange((end - begin) * items),
                                         cl::NDRange(items));
+      begin = end;
     }
   }
 };

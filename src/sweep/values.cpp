@@ -83,7 +83,7 @@ std::string written(double value) {
 /// `value` without the digits of binary rounding, in a range that reaches to `scale`.
 double clean(double value, double scale) {
   const int decimals = std::max(0, kDigits - 1 - static_cast<int>(std::floor(std::log10(scale))));
-  return *parsed<double>(fixed(value, decimals)) + 0.0;  // no -0
+  return parsed<double>(fixed(value, decimals)).value_or(value) + 0.0;  // no -0
 }
 
 std::vector<std::string> range(const OptionRow& row, std::string_view text,

@@ -14,9 +14,9 @@ std::string shortest(double value);                 ///< the fewest digits that 
 std::string significant(double value, int digits);  ///< at most `digits` significant digits
 std::string fixed(double value, int decimals);      ///< so many digits after the point
 std::string grouped(std::uint64_t count);           ///< 1,234,567
-std::string grouped(std::string digits);            ///< 1,234,567; -1,234
+std::string grouped(std::string number);            ///< 1,234,567; -1,234.5
 
-/// The number that the whole text is; none where it is anything else.
+/// The number that the whole text is, which may be inf or nan; none where it is anything else.
 template <class Number>
 std::optional<Number> parsed(std::string_view text) {
   Number value{};

@@ -120,7 +120,7 @@ class Instances(ForestTest):
             ("canopy", ("--memory", "1G"), False),
         ):
             result = self.forest(scene, "forest", "--merge", merge, *COARSE, *flags, "--restart")
-            self.assertEqual("warning: --memory bounds" in result.stderr, warned, result.stderr)
+            self.assertEqual("warning: --memory only bounds" in result.stderr, warned, result.stderr)
 
     def test_it_is_a_forest_that_can_be_resumed(self):
         scene = self.scatter(9)

@@ -105,10 +105,24 @@ TEST(Points, ManyInOnePlaceComeInBatches) {
   find_kernels_near(near.set, points, Within::point, 8, [&](const PointBatch& batch) {
     ++batches;
     seen += batch.index.size();
-    EXPECT_LE(batch.index.size(), std::size_t{1} << 19);
+    EXPECT_LE(batch.index.size(), (std::size_t{1} << 18) + (std::size_t{1} << 14));
   });
   EXPECT_GT(batches, 1u);
   EXPECT_EQ(seen, points.size());
+}
+
+TEST(Points, KeepTheirCellWhereFloatsAreCoarse) {
+  const Near near;
+  // As a float the first one's offset from its frame would be 16.
+  const std::vector<Vec3d> points{{-1e-8, 3.5, 3.5}, {7 - 1e-8, -1e-9, 3.5}};
+  find_kernels_near(near.set, points, Within::cell, 8, [&](const PointBatch& batch) {
+    for (const PointGroup& group : batch.groups) {
+      for (std::size_t i = group.chunk * 8; i < (group.chunk + group.count) * 8; ++i) {
+        const Vec3d offset(Vec3f(batch.x[i], batch.y[i], batch.z[i]));
+        EXPECT_EQ(cell_of(to_vec3d(group.origin) + offset), cell_of(points[batch.index[i]]));
+      }
+    }
+  });
 }
 
 TEST(Points, NoneAreNoBatch) {

@@ -23,6 +23,9 @@ TEST(Numbers, AreRounded) {
   EXPECT_EQ(significant(1234.5678, 6), "1234.57");
   EXPECT_EQ(significant(2.5, 6), "2.5");
   EXPECT_EQ(fixed(2.345, 1), "2.3");
+  EXPECT_EQ(significant(1e-5, 3), "1e-05");
+  EXPECT_EQ(significant(1e6, 6), "1e+06");
+  EXPECT_EQ(fixed(-0.04, 1), "-0.0");
   EXPECT_EQ(fixed(1e308, 2).size(), 309u + 3);
 }
 
@@ -31,6 +34,8 @@ TEST(Numbers, AreGrouped) {
   EXPECT_EQ(grouped(1'234'567), "1,234,567");
   EXPECT_EQ(grouped(std::string("-123")), "-123");
   EXPECT_EQ(grouped(std::string("-1234")), "-1,234");
+  EXPECT_EQ(grouped(std::string("1234.5678")), "1,234.5678");
+  EXPECT_EQ(grouped(std::string("1e+07")), "1e+07");
 }
 
 TEST(Numbers, AreTheWholeText) {
