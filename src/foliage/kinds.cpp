@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <string>
+#include <vector>
 
 #include "foliage/names.h"
 
@@ -55,13 +56,32 @@ bool holds(std::string_view text, const KindWord& word) {
   return false;
 }
 
-std::optional<LeafKind> kind_above(const TreeModel& tree, int node) {
-  for (std::size_t steps = 0; node >= 0 && steps <= tree.nodes.size(); ++steps) {
-    if (const auto kind = read_kind(tree.nodes[node].name)) return kind;
-    node = tree.nodes[node].parent;
+/// What the names of nodes and of those above them tell. Each name is read once.
+class NodeKinds {
+ public:
+  explicit NodeKinds(const TreeModel& tree)
+      : tree_(tree), is_known_(tree.nodes.size()), kinds_(tree.nodes.size()) {}
+
+  /// What the nearest name tells, from the node upwards.
+  std::optional<LeafKind> above(int node) {
+    std::vector<int> unknown;
+    for (; node >= 0 && !is_known_[node]; node = tree_.nodes[node].parent) {
+      is_known_[node] = true;
+      unknown.push_back(node);
+    }
+    std::optional<LeafKind> kind = node < 0 ? std::nullopt : kinds_[node];
+    for (auto n = unknown.rbegin(); n != unknown.rend(); ++n) {
+      if (const auto own = read_kind(tree_.nodes[*n].name)) kind = own;
+      kinds_[*n] = kind;
+    }
+    return kind;
   }
-  return std::nullopt;
-}
+
+ private:
+  const TreeModel& tree_;
+  std::vector<bool> is_known_;
+  std::vector<std::optional<LeafKind>> kinds_;
+};
 
 }  // namespace
 
@@ -76,6 +96,7 @@ std::optional<LeafKind> read_kind(std::string_view name) {
 LeafKind kind_of(const TreeModel& tree, std::span<const Instance> instances,
                  const std::vector<Candidate>& candidates) {
   const LeafKind of_file = read_kind(tree.path.stem().string()).value_or(broad);
+  NodeKinds nodes(tree);
   std::array<double, 3> areas{};
   for (const Candidate& candidate : candidates) {
     if (candidate.told.verdict != LeafVerdict::leaves) continue;
@@ -88,7 +109,7 @@ LeafKind kind_of(const TreeModel& tree, std::span<const Instance> instances,
           told.node}) {
       if (!kind) kind = read_kind(name);
     }
-    if (!kind) kind = kind_above(tree, instances[candidate.instances.front()].node);
+    if (!kind) kind = nodes.above(instances[candidate.instances.front()].node);
     areas[static_cast<std::size_t>(kind.value_or(of_file))] += candidate.visible;
   }
   return static_cast<LeafKind>(std::ranges::max_element(areas) - areas.begin());

@@ -86,7 +86,7 @@ class ForestUsage(CommandTest):
         )
 
     def test_names_that_are_the_forests_own(self):
-        stand, own = self.out / "stand", "forest's own"
+        stand, own = self.out / "stand", "one of the forest's files"
         for name in ("manifest.json", "tileset.json", "tiles/0/report.json", "work/report.json"):
             self.refuse([own, name, "--report"], "--report", stand / name)
         for name in ("forest.glb", "tiles/0/0_0_0.glb", "work/all.ply"):
@@ -113,7 +113,7 @@ class ForestUsage(CommandTest):
             scene = self.input("own.csv", f"model,x,y,z\nstand/{name},0,0,0\n".encode())
             for what, given in (("scene", stand / name), ("model", scene)):
                 for merge in ("none", "canopy"):
-                    words = ["forest's own", f"the {what}", name]
+                    words = ["one of the forest's files", f"the {what}", name]
                     flags = ("-o", stand, "--merge", merge, "--restart")
                     self.fail_with(2, words, "forest", given, *flags)
             self.assertEqual((stand / name).read_bytes(), data)
