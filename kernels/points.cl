@@ -64,9 +64,11 @@ typedef struct {
 #if LANES == 1
 typedef float Boxes;
 typedef uint Marks;
+#define WHERE(c) ((uint)(-(c)))
 #else
 typedef float8 Boxes;
 typedef uint8 Marks;
+#define WHERE(c) as_uint8(c)
 #endif
 
 // Centres and half the extents of the boxes around the points of chunks.
@@ -111,7 +113,7 @@ static Marks marks_of(global const NearKernel* near, uint count, ChunkBoxes boxe
     const Boxes near_y = fmax(my - ey, (Boxes)(0.0f));
     const Boxes near_z = fmax(mz - ez, (Boxes)(0.0f));
     const Boxes least = fma(near_x, near_x, fma(near_y, near_y, near_z * near_z));
-    marks |= select((Marks)(0), (Marks)(FIRST_OF_RUN >> i), least < XI_SLACK * k->top);
+    marks |= WHERE(least < XI_SLACK * k->top) & (FIRST_OF_RUN >> i);
   }
   return marks;
 }

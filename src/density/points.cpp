@@ -107,7 +107,7 @@ class Search {
     }
     std::sort(members_.begin(), members_.end());
     PointBatch batch;
-    batch.chunk_points = chunk_points;
+    batch.chunk_points = chunk_points_ = chunk_points;
     auto next = members_.begin();
     descent_.from(
         cluster.runs.front().root,
@@ -116,7 +116,8 @@ class Search {
           const auto end = std::lower_bound(next, members_.end(),
                                             Member{morton(block.origin) + edge * edge * edge, 0});
           if (end == next) return false;
-          if (block.edge > kBrickEdge) return true;
+          if (block.edge > kFrameEdge) return true;
+          if (block.edge == kFrameEdge && pays_to_divide({next, end})) return true;
           add_brick(points, block.origin, std::span(next, end), near, batch);
           next = end;
           return true;
@@ -129,6 +130,18 @@ class Search {
   static constexpr int kAnyFalloff = 1;
   /// A point moves as far as the first sample of the next brick.
   static constexpr int kMargin = 1;
+
+  /// Whether the points of a frame are searched brick by brick. Each group tests the whole list of
+  /// its block: a frame's is about three times as long as a brick's.
+  bool pays_to_divide(std::span<const Member> members) const {
+    constexpr std::uint32_t kBrickCells = kBrickSamples;
+    std::size_t bricks = 1;
+    for (std::size_t i = 1; i < members.size(); ++i) {
+      bricks += members[i].place / kBrickCells != members[i - 1].place / kBrickCells;
+    }
+    const std::size_t group_points = kGroupChunks * chunk_points_;
+    return 3 * ((members.size() + group_points - 1) / group_points) > bricks;
+  }
 
   template <class T>
   void add_brick(std::span<const Vec3<T>> points, Coord brick, std::span<const Member> members,
@@ -206,6 +219,7 @@ class Search {
   Descent descent_;
   const KernelSet& set_;
   Within within_;
+  std::size_t chunk_points_ = 0;
   std::vector<Member> members_;
 };
 

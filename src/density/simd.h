@@ -29,4 +29,19 @@ ALWAYS_INLINE Floats absolute(Floats a) {
   return std::bit_cast<Floats>(std::bit_cast<Ints>(a) & 0x7fffffff);
 }
 
+/// A bit for each lane in which a comparison holds.
+ALWAYS_INLINE unsigned bits_of(Ints truth) {
+#ifdef __SSE__
+  using Half = float __attribute__((vector_size(16)));
+  const auto lanes = std::bit_cast<Floats>(truth);
+  const Half low = __builtin_shufflevector(lanes, lanes, 0, 1, 2, 3);
+  const Half high = __builtin_shufflevector(lanes, lanes, 4, 5, 6, 7);
+  return static_cast<unsigned>(__builtin_ia32_movmskps(low) | __builtin_ia32_movmskps(high) << 4);
+#else
+  unsigned bits = 0;
+  for (unsigned i = 0; i < 8; ++i) bits |= static_cast<unsigned>(-truth[i]) << i;
+  return bits;
+#endif
+}
+
 }  // namespace leafhull

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <numeric>
-#include <utility>
+#include <span>
 
 namespace leafhull {
 namespace {
@@ -73,14 +73,18 @@ SpatialHash::SpatialHash(std::span<const Vec3d> centres, const Lattice& cells) :
   order_.resize(first);
   tbb::parallel_for(std::size_t{0}, nodes_.size(), [&](std::size_t i) {
     Node& node = nodes_[i];
-    const std::span ranked(order_.data() + node.first, parts.indices(ascending[i]).size());
-    std::copy_n(&*parts.indices(ascending[i]), ranked.size(), ranked.begin());
-    const auto cell = [&](std::uint32_t point) { return parts.voxelOffsets()[point]; };
-    std::ranges::sort(ranked, {},
-                      [&](std::uint32_t point) { return std::pair(cell(point), point); });
+    const std::span points(&*parts.indices(ascending[i]), parts.indices(ascending[i]).size());
+    const auto cell = [&](std::uint32_t point) {
+      return static_cast<std::size_t>(parts.voxelOffsets()[point]);
+    };
     node.end.fill(0);
-    for (const std::uint32_t point : ranked) ++node.end[static_cast<std::size_t>(cell(point))];
-    std::partial_sum(node.end.begin(), node.end.end(), node.end.begin());
+    for (const std::uint32_t point : points) ++node.end[cell(point)];
+    std::exclusive_scan(node.end.begin(), node.end.end(), node.end.begin(), std::uint32_t{0});
+    for (const std::uint32_t point : points) order_[node.first + node.end[cell(point)]++] = point;
+    // The partitioner promises no order.
+    for (int c = 0; c < Node::kCells; ++c) {
+      std::sort(order_.begin() + node.begin_of(c), order_.begin() + node.end_of(c));
+    }
   });
 }
 

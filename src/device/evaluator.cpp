@@ -13,8 +13,9 @@ namespace {
 constexpr std::size_t kWorkItems = 256;  // per brick, as in density_work_item.cl
 // PoCL compiles a kernel again for grids of 65,536 groups and more.
 constexpr std::size_t kMostPerLaunch = 1 << 15;  // bricks or groups of points
-/// Scratch space of a launch: entries of lists, unless a group alone has more; 42 MiB.
-constexpr std::size_t kMostEntries = std::size_t{1} << 20;
+/// Scratch space of a launch: entries of lists, unless a group alone has more. Its 5 MiB stay in a
+/// CPU's caches; fresh memory costs more than the sums.
+constexpr std::size_t kMostEntries = std::size_t{1} << 17;
 
 // As in points.cl.
 constexpr std::size_t kRun = 32;
@@ -49,10 +50,15 @@ struct Evaluator::Impl {
   Device::Engine& engine;
   int falloff;
   cl::Buffer kernels;
+  cl::Buffer near = {}, marks = {};  // scratch space
+  std::size_t room = 0;              // entries of it
 
-  template <class T>
-  cl::Buffer scratch(std::size_t size) const {
-    return {engine.context, CL_MEM_READ_WRITE, std::max<std::size_t>(size, 1) * sizeof(T)};
+  /// Makes room in the scratch space, in which launches take turns.
+  void reserve(std::size_t entries) {
+    if (entries <= room) return;
+    near = cl::Buffer(engine.context, CL_MEM_READ_WRITE, entries * sizeof(NearKernel));
+    marks = cl::Buffer(engine.context, CL_MEM_READ_WRITE, entries / kRun * sizeof(Marks));
+    room = entries;
   }
 
   /// Runs a kernel over the points of a batch, a launch's share at a time.
@@ -62,10 +68,9 @@ struct Evaluator::Impl {
     const cl::Buffer list = engine.input(batch.bricks.kernels);
     const std::size_t items = engine.vector() ? 1 : kGroupChunks * batch.chunk_points;
     const std::vector<std::size_t> ends = in_launches(batch.groups);
-    // Launches take turns in one scratch space.
-    std::size_t entries = 0;
-    for (const PointGroup& g : batch.groups) entries = std::max(entries, g.entry + entries_of(g));
-    const cl::Buffer near = scratch<NearKernel>(entries), marks = scratch<Marks>(entries / kRun);
+    std::size_t entries = kMostEntries;
+    for (const PointGroup& g : batch.groups) entries = std::max(entries, entries_of(g));
+    reserve(entries);
     std::size_t begin = 0;
     for (const std::size_t end : ends) {
       const auto part = [&](const auto& all) {

@@ -9,10 +9,12 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cstring>
 #include <utility>
 #include <vector>
 
 #include "density/field_grid.h"
+#include "density/simd.h"
 
 namespace leafhull {
 namespace {
@@ -25,7 +27,11 @@ std::uint64_t inside_layer(const Accessor& negated, float iso, const openvdb::Co
   if (!brick) return negated.getValue(at) < iso ? ~std::uint64_t{0} : 0;
   const float* values = brick->buffer().data() + 64 * (at.x() & (kBrickEdge - 1));
   std::uint64_t layer = 0;
-  for (int yz = 0; yz < 64; ++yz) layer |= std::uint64_t{*values++ < iso} << yz;
+  for (int y = 0; y < kBrickEdge; ++y) {
+    Floats row;
+    std::memcpy(&row, values + kBrickEdge * y, sizeof row);
+    layer |= std::uint64_t{bits_of(row < iso)} << (kBrickEdge * y);
+  }
   return layer;
 }
 
