@@ -9,6 +9,7 @@
 #include "leafhull/render.h"
 #include "picture/parts.h"
 #include "pipeline/finish_mesh.h"
+#include "render/frame.h"
 #include "render/light.h"
 #include "surface/metrics.h"
 #include "surface/polygonise.h"
@@ -24,7 +25,7 @@ constexpr std::string_view kShapeName = "abstract shape";
 
 /// Gives the parts their place in a scene about 1 large.
 void place(const Frame& frame, Parts& parts) {
-  const Box box = box_of(frame);
+  const Box box = render::box_of(frame);
   if (!(box.longest_side() > 0)) {
     throw Error(ErrorCode::input, "the subject has no extent", "Repair the model.");
   }
