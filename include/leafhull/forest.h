@@ -46,7 +46,7 @@ struct ForestOptions {
   bool finish = false;                          ///< only does what follows once all tiles are there
   bool resume = false;   ///< continues what an earlier run left in the folder
   bool restart = false;  ///< removes what an earlier run left there
-  /// .glb or .ply, relative to the folder: all tiles of level 0, welded.
+  /// .glb or .ply, relative to the working folder: all tiles of level 0, welded.
   std::optional<std::filesystem::path> single;
 };
 
@@ -63,22 +63,34 @@ LEAFHULL_API std::span<const ForestOptionRow> forest_table();
 /// A forest that can be computed and kept: plan_forest() has checked it.
 class ForestPlan {
  public:
+  /// The options; `single` is relative to the folder.
   const ForestOptions& options() const { return options_; }
   const OutputFolder& folder() const { return folder_; }
+  const std::optional<OutputFile>& single() const { return single_; }
+
+  /// A .json file for the report, which may lie in the folder before that is made.
+  /// @param file relative to the working folder.
+  /// @throws Error usage: it has the name of one of the forest's own files, or as OutputFile.
+  LEAFHULL_API OutputFile report_file(const std::filesystem::path& file) const;
 
  private:
-  friend ForestPlan plan_forest(ForestOptions options, const std::filesystem::path& folder);
-  ForestPlan(ForestOptions options, OutputFolder folder)
-      : options_(std::move(options)), folder_(std::move(folder)) {}
+  friend ForestPlan plan_forest(ForestOptions options, const std::filesystem::path& folder,
+                                const std::filesystem::path& scene);
+  ForestPlan(ForestOptions options, OutputFolder folder, std::filesystem::path scene);
 
   ForestOptions options_;
   OutputFolder folder_;
+  std::filesystem::path scene_;
+  std::optional<OutputFile> single_;
 };
 
-/// Checks the options, the shape's too, and the folder before any work is done.
-/// @throws Error usage: a value out of range, or two options that contradict each other;
-///         output: the folder could not be made or written to.
-LEAFHULL_API ForestPlan plan_forest(ForestOptions options, const std::filesystem::path& folder);
+/// Checks the options, the shape's too, and all names before any work is done.
+/// @param scene the file that the scene is read from; empty where there is none.
+/// @throws Error usage: a value out of range, two options that contradict each other, a `single`
+///         that is not .glb or .ply or is the scene itself, or a name of the forest's own files for
+///         one of the two; output: the folder or `single` could not be made or written to.
+LEAFHULL_API ForestPlan plan_forest(ForestOptions options, const std::filesystem::path& folder,
+                                    const std::filesystem::path& scene = {});
 
 /// A finished tile.
 struct TileRow {
@@ -119,9 +131,9 @@ struct ForestSummary {
 /// and tiles/ for a canopy, forest.glb for Merge::none, and manifest.json with a checksum of each
 /// file. The bytes depend on the scene and the options alone, not on ranks, ranges, threads or
 /// interruptions.
-/// @throws Error usage: a folder that holds another forest, or one that is not finished, without
-///         `resume`; more memory or more tiles than there is room for; input: a model;
-///         empty: no tree has a surface; output; device.
+/// @throws Error usage: a model that would be overwritten; a folder that holds another forest, or
+///         one that is not finished, without `resume`; more memory or more tiles than there is room
+///         for; input: a model; empty: no tree has a surface; output; device.
 LEAFHULL_API ForestSummary run_forest(const Scene& scene, const ForestPlan& plan, Device& device,
                                       Ranks& ranks, const Progress& progress = {});
 

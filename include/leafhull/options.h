@@ -94,6 +94,10 @@ std::string_view name(Enum value) {
   return names(value)[static_cast<std::size_t>(value)];
 }
 
+/// The style of that name; `luft-deussen`, its name up to 0.1, is paper-previous.
+/// @throws Error usage: no such name.
+LEAFHULL_API Style style_named(std::string_view name);
+
 /// Voxels along the longest side.
 LEAFHULL_API int resolution_of(Preset preset);
 

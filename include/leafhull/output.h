@@ -72,15 +72,17 @@ class OutputFile {
                           const std::vector<std::filesystem::path>& inputs);
 
   const std::filesystem::path& path() const { return path_; }
-  /// Writes the whole file or leaves it as it was.
+  /// Writes the whole file or leaves it as it was. Makes the OutputFolder that it is from.
   /// @throws Error output: why.
   LEAFHULL_API void write(std::string_view bytes) const;
 
  private:
   friend class OutputFolder;
-  explicit OutputFile(std::filesystem::path file) : path_(std::move(file)) {}
+  OutputFile(std::filesystem::path file, std::filesystem::path folder)
+      : path_(std::move(file)), folder_(std::move(folder)) {}
 
   std::filesystem::path path_;
+  std::filesystem::path folder_;  ///< made where it is missing; empty: it was there
 };
 
 /// A folder that results can be written into; it need not exist.
@@ -92,6 +94,7 @@ class OutputFolder {
 
   const std::filesystem::path& path() const { return path_; }
   /// A file, which may lie in this folder before that is made.
+  /// @param name relative to the working folder, not to this one.
   /// @throws Error as OutputFile does.
   LEAFHULL_API OutputFile file(const std::filesystem::path& name, std::string_view extension,
                                const std::vector<std::filesystem::path>& inputs) const;

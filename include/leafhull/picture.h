@@ -26,9 +26,6 @@ struct Frame {
   double reach = 0;
 };
 
-/// The box of a frame's points, grown by their reach.
-Box box_of(const Frame& frame);
-
 /// The frame of the crown's leaf vertices and the space that their kernels fill, with radii up to
 /// `radius_max` (model units) or the leaves' own. Strays may lie outside.
 LEAFHULL_API Frame frame_of(const LeafSet& leaves, double radius_max);

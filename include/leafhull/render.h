@@ -73,8 +73,9 @@ class Subject {
   struct Parts;
   explicit Subject(std::shared_ptr<const Parts> parts) : parts_(std::move(parts)) {}
 
-  /// The report of its extraction, as far as pictures needed one; only for a tree's shape.
-  LEAFHULL_API const Report& report() const;
+  /// The report of the extraction of a tree's shape, as far as pictures needed one; null for
+  /// other subjects. Lives as long as the subject.
+  LEAFHULL_API const Report* report() const;
   /// The part that only src/picture uses.
   const Parts& parts() const { return *parts_; }
 

@@ -142,7 +142,8 @@ LEAFHULL_API TreeStudy study_tree(const LeafSet& leaves, const std::string& name
 
 /// Writes report.html (with curves if gnuplot is installed) and study.json into `folder`, or
 /// neither. Makes the folder if it is missing.
-/// @throws Error output: which file and why.
+/// @param study one tree or more, each with the same readings, one or more.
+/// @throws Error usage: no tree, or a tree without readings; output: which file and why.
 LEAFHULL_API void write_study(const Study& study, const OutputFolder& folder);
 
 }  // namespace leafhull

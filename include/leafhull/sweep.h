@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "leafhull/api.h"
@@ -40,11 +41,28 @@ LEAFHULL_API SweptOption swept_option(const OptionRow& row, std::string_view tex
 /// @throws Error usage: more than a sweep can hold, 100,000.
 LEAFHULL_API std::size_t combination_count(std::span<const SweptOption> swept);
 
-/// What a sweep extracts.
-struct SweepPlan {
-  std::vector<SweptOption> swept;     ///< in the order of option_table(), none twice
-  std::vector<Options> combinations;  ///< all of them; the last swept option changes fastest
+/// What a sweep extracts: plan_sweep() has checked and combined it.
+class SweepPlan {
+ public:
+  /// One or more, in the order of option_table(), none twice.
+  const std::vector<SweptOption>& swept() const { return swept_; }
+  /// All of them, as resolve() returns them; the last swept option changes fastest.
+  const std::vector<Options>& combinations() const { return combinations_; }
+
+ private:
+  friend SweepPlan plan_sweep(const Options& options, std::vector<SweptOption> swept);
+  SweepPlan(std::vector<SweptOption> swept, std::vector<Options> combinations)
+      : swept_(std::move(swept)), combinations_(std::move(combinations)) {}
+
+  std::vector<SweptOption> swept_;
+  std::vector<Options> combinations_;
 };
+
+/// Every combination of the values in `swept`, in any order; all else is as in `options`.
+/// @throws Error usage: nothing is swept, an option that cannot be, that has no values or stands
+///         twice, a value that is no number or name of its option, more combinations than a sweep
+///         can hold, and what resolve() throws.
+LEAFHULL_API SweepPlan plan_sweep(const Options& options, std::vector<SweptOption> swept);
 
 /// Where a sweep is kept.
 struct SweepFolder {

@@ -15,7 +15,6 @@
 #include "cli/verb.h"
 #include "leafhull/error.h"
 #include "leafhull/ranks.h"
-#include "text/file_name.h"
 
 namespace leafhull::cli {
 namespace {
@@ -55,68 +54,20 @@ std::vector<Flag> tree_flags() {
   return flags;
 }
 
-/// A forest overwrites these names in its folder, and --restart removes files so named.
-void check_name(const fs::path& file, std::string_view what, const fs::path& folder) {
-  std::error_code unreadable;  // its reader or writer reports this too
-  const auto place = [&](const fs::path& path) {
-    return fs::weakly_canonical(fs::absolute(path), unreadable);
-  };
-  for (const fs::path& found :
-       {place(fs::absolute(file).parent_path()) / file.filename(), place(file)}) {
-    const fs::path within = found.lexically_relative(place(folder));
-    for (const char* name : {"manifest.json", "tileset.json", "forest.glb", "tiles", "work"}) {
-      if (within.empty() || *within.begin() != name) continue;
-      throw Error(ErrorCode::usage,
-                  std::string(what) + " " + file.string() +
-                      " has the name of one of the forest's files: " + (folder / name).string() +
-                      " would be overwritten or removed",
-                  "Name another file, or another folder with -o.");
-    }
-  }
-}
-
 ForestPlan plan_of(const Arguments& arguments) {
   if (arguments.output.empty()) {
     throw Error(ErrorCode::usage, "no folder for the forest is named", "Name one: -o out/.");
   }
   ForestOptions options = arguments.forest;
   options.shape = arguments.options;
-  // Names are typed relative to the working folder.
-  if (options.single) options.single = fs::proximate(*options.single, arguments.output);
-  return plan_forest(options, arguments.output);
-}
-
-/// Checks that nothing typed has a name of the forest's own, and the mesh of `--single`.
-void check_names(const Arguments& arguments, const OutputFolder& folder) {
-  check_name(arguments.operand, "the scene", arguments.output);
-  if (const std::optional<fs::path>& single = arguments.forest.single) {
-    const std::string extension = lower_extension(*single);
-    if (extension != ".glb" && extension != ".ply") {
-      throw Error(ErrorCode::usage, "--single cannot be written to " + single->string(),
-                  "Name a .glb or .ply file.");
-    }
-    check_name(*single, "--single", arguments.output);
-    (void)folder.file(*single, extension, {arguments.operand});
-  }
-  const std::optional<fs::path>& report = arguments.files.report;
-  if (report && *report != "-") check_name(*report, "--report", arguments.output);
+  return plan_forest(std::move(options), arguments.output, arguments.operand);
 }
 
 /// The report's file; empty where there is none, or where it is standard output.
-std::optional<OutputFile> report_file(const Arguments& arguments, const OutputFolder& folder) {
+std::optional<OutputFile> report_file(const Arguments& arguments, const ForestPlan& plan) {
   const std::optional<fs::path>& report = arguments.files.report;
   if (!report || *report == "-") return std::nullopt;
-  return folder.file(*report, ".json", {arguments.operand});
-}
-
-/// Checks that the forest does not overwrite its trees.
-void check_models(const Arguments& arguments, const OutputFolder& folder, const Scene& scene) {
-  const std::optional<fs::path>& single = arguments.forest.single;
-  for (const SceneModel& model : scene.models) {
-    if (model.file.empty()) continue;
-    check_name(model.file, "the model", arguments.output);
-    if (single) (void)folder.file(*single, lower_extension(*single), {model.file});
-  }
+  return plan.report_file(*report);
 }
 
 /// Checks that all ranks have the same command: if not, they would wait for each other for ever.
@@ -227,8 +178,7 @@ void make_forest(const Arguments& arguments, Ranks& ranks) {
   check_ranks_agree(arguments, ranks);
   check_ranks_share_all(arguments, ranks);
   const ForestPlan plan = plan_of(arguments);
-  check_names(arguments, plan.folder());
-  const std::optional<OutputFile> report = report_file(arguments, plan.folder());
+  const std::optional<OutputFile> report = report_file(arguments, plan);
   warn_of_memory(arguments, context);
   ForestWords words(ranks, arguments.quiet, how_to_go_on(plan.options()));
 
@@ -239,7 +189,6 @@ void make_forest(const Arguments& arguments, Ranks& ranks) {
   console.progress({.stage = "read"});
   const Scene scene = read_scene(arguments.operand, shape.leaf_options(), shape.read_options());
   context.warn(scene.warnings);
-  check_models(arguments, plan.folder(), scene);
   Device& device = context.device();
   console.detail("device      " + device.info().name);
   console.detail("scene       " + counted(scene.trees.size(), "tree") + " of " +

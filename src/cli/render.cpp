@@ -131,7 +131,7 @@ class Run {
     }
     const Subject subject = tree_subject(model, leaves, arguments_.options, surfacing(arguments_),
                                          device, context_.progress());
-    context_.warn(subject.report().warnings);
+    context_.warn(subject.report()->warnings);
     std::vector<Subject> row{subject};
     if (arguments_.render.beside) {
       row.insert(row.begin(), drawn_subject(model, *leaves.choice, subject));
@@ -150,15 +150,16 @@ class Run {
 
   /// Writes the shape, the last of `row`, with what stands beside it.
   void write(std::span<const Subject> row, Device& device) {
-    const Report& report = row.back().report();
-    if (report.resolution > 0) {
-      context_.console.detail("surface     T = " + number(report.threshold, 4) + ", " +
-                              count(static_cast<std::uint64_t>(report.resolution)) + " voxels of " +
-                              number(report.voxel_size, 4));
+    const Report* report = row.back().report();
+    if (report) {
+      context_.console.detail("surface     T = " + number(report->threshold, 4) + ", " +
+                              count(static_cast<std::uint64_t>(report->resolution)) +
+                              " voxels of " + number(report->voxel_size, 4));
     }
     const PictureSummary summary = write_pictures(row, plan_, device, context_.progress());
     context_.warn(summary.warnings);
-    for (std::vector<StageTime> times : {report.seconds, summary.seconds}) {
+    const std::vector<StageTime> of_shape = report ? report->seconds : std::vector<StageTime>{};
+    for (std::vector<StageTime> times : {of_shape, summary.seconds}) {
       std::erase_if(times, [](const StageTime& time) { return time.stage == "total"; });
       context_.say_stages(times, "", 10);
     }

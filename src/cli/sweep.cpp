@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "leafhull/sweep.h"
 
-#include <algorithm>
 #include <utility>
 
 #include "cli/context.h"
@@ -70,41 +69,17 @@ void check_sweep_arguments(const Arguments& arguments) {
   }
 }
 
-/// Sorts the options as in option_table(), which is one array.
-std::vector<SweptOption> in_order(std::vector<SweptOption> swept) {
-  std::sort(swept.begin(), swept.end(), [](const auto& a, const auto& b) { return a.row < b.row; });
-  return swept;
-}
-
-std::vector<Options> combinations(const Options& options, const std::vector<SweptOption>& swept) {
-  std::vector<Options> all = {options};
-  for (const SweptOption& option : swept) {
-    std::vector<Options> finer;
-    finer.reserve(all.size() * option.values.size());
-    for (const Options& coarse : all) {
-      for (const std::string& value : option.values) {
-        set_option(finer.emplace_back(coarse), *option.row, value);
-      }
-    }
-    all = std::move(finer);
-  }
-  return all;
-}
-
 SweepPlan plan_of(const Arguments& arguments) {
-  SweepPlan plan{in_order(arguments.swept), {}};
-  const std::size_t all = combination_count(plan.swept);
+  const std::size_t all = combination_count(arguments.swept);
   if (all > kMostUnasked && !arguments.yes) {
     throw Error(ErrorCode::usage, "these are " + count(all) + " combinations",
                 "Take larger steps, or agree with --yes.");
   }
-  plan.combinations = combinations(arguments.options, plan.swept);
-  for (Options& options : plan.combinations) options = resolve(options);
-  return plan;
+  return plan_sweep(arguments.options, arguments.swept);
 }
 
 /// The first combination's falloff, whose kernels are built while the tree is read.
-int first_falloff(const SweepPlan& plan) { return plan.combinations.front().falloff; }
+int first_falloff(const SweepPlan& plan) { return plan.combinations().front().falloff; }
 
 void say_summary(Context& context, const SweepSummary& summary, const Arguments& arguments) {
   std::string text = "leafhull: " + counted(summary.combinations, "combination");
@@ -124,7 +99,7 @@ void run_sweep_verb(const Arguments& arguments) {
   catch_signals();
 
   context.open_device(first_falloff(plan));
-  const LeafSet leaves = context.read_leaves(plan.combinations.front().leaf_options());
+  const LeafSet leaves = context.read_leaves(plan.combinations().front().leaf_options());
   Device& device = context.device();
   Console& console = context.console;
   console.detail("device      " + device.info().name);

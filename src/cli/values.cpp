@@ -165,12 +165,7 @@ void parse(TileRange& value, const Typed& typed) {
   parse_part(value.part, {of_parts, text}, part, ", I");
 }
 
-void parse(Style& value, const Typed& typed) {
-  // The method's name up to 0.1.
-  value = typed.text == "luft-deussen"
-              ? Style::paper_previous
-              : static_cast<Style>(choice(typed.flag, typed.text, names(value)));
-}
+void parse(Style& value, const Typed& typed) { value = style_named(typed.text); }
 
 void parse(Plate& value, const Typed& typed) {
   value = typed.text.empty() ? Plate::own : Plate::paper;

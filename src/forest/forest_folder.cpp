@@ -73,6 +73,25 @@ void remove_listed(const fs::path& list, std::string_view schema, const fs::path
 
 }  // namespace
 
+void check_name(const fs::path& file, std::string_view what, const fs::path& folder) {
+  std::error_code unreadable;  // its reader or writer reports this too
+  const auto place = [&](const fs::path& path) {
+    return fs::weakly_canonical(fs::absolute(path, unreadable), unreadable);
+  };
+  for (const fs::path& found :
+       {place(fs::absolute(file, unreadable).parent_path()) / file.filename(), place(file)}) {
+    const fs::path within = found.lexically_relative(place(folder));
+    for (const char* name : {"manifest.json", "tileset.json", "forest.glb", "tiles", "work"}) {
+      if (within.empty() || *within.begin() != name) continue;
+      throw Error(ErrorCode::usage,
+                  std::string(what) + " " + file.string() +
+                      " has the name of one of the forest's files: " + (folder / name).string() +
+                      " would be overwritten or removed",
+                  "Name another file, or another folder with -o.");
+    }
+  }
+}
+
 std::vector<fs::path> ForestFolder::journals() const {
   std::vector<fs::path> journals;
   for (const fs::path& entry : entries_of(work())) {

@@ -57,4 +57,11 @@ class ForestFolder : public RunFolder {
   std::filesystem::path folder_;
 };
 
+/// Refuses a file with the name of one of the forest's own in `folder`: a run overwrites it, or
+/// `restart` removes it.
+/// @param what the file, in words, such as "the scene".
+/// @throws Error usage.
+void check_name(const std::filesystem::path& file, std::string_view what,
+                const std::filesystem::path& folder);
+
 }  // namespace leafhull

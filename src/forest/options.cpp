@@ -1,14 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// The options of a forest: their rows, and which of them contradict each other.
+// The options of a forest: their rows, which of them contradict each other, and its plan.
 #include <string>
+#include <system_error>
 #include <utility>
 
 #include "density/lattice.h"
+#include "forest/forest_folder.h"
 #include "leafhull/error.h"
 #include "leafhull/forest.h"
+#include "output/write_error.h"
+#include "text/file_name.h"
 
 namespace leafhull {
 namespace {
+
+namespace fs = std::filesystem;
 
 constexpr std::string_view kMergeNames[] = {"none", "canopy"};
 constexpr std::string_view kScopeNames[] = {"model", "scene"};
@@ -117,12 +123,33 @@ std::span<const ForestOptionRow> forest_table() {
   return rows;
 }
 
-ForestPlan plan_forest(ForestOptions options, const std::filesystem::path& folder) {
+ForestPlan::ForestPlan(ForestOptions options, OutputFolder folder, fs::path scene)
+    : options_(std::move(options)), folder_(std::move(folder)), scene_(std::move(scene)) {
+  if (!scene_.empty()) check_name(scene_, "the scene", folder_.path());
+  if (!options_.single) return;
+  const fs::path file = *options_.single;
+  const std::string extension = lower_extension(file);
+  if (extension != ".glb" && extension != ".ply") {
+    refuse("--single cannot be written to " + file.string(), "Name a .glb or .ply file.");
+  }
+  check_name(file, "--single", folder_.path());
+  single_ = folder_.file(file, extension, {scene_});
+  std::error_code error;
+  options_.single = fs::proximate(file, folder_.path(), error);
+  if (error) throw write_error(file, error.value());
+}
+
+OutputFile ForestPlan::report_file(const fs::path& file) const {
+  check_name(file, "--report", folder_.path());
+  return folder_.file(file, ".json", {scene_});
+}
+
+ForestPlan plan_forest(ForestOptions options, const fs::path& folder, const fs::path& scene) {
   (void)resolve(options.shape);
   check_rows(forest_table(), options);
   check_contradictions(options);
   check_shape(options);
-  return {std::move(options), OutputFolder(folder)};
+  return {std::move(options), OutputFolder(folder), scene};
 }
 
 }  // namespace leafhull

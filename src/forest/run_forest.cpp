@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "density/control.h"
+#include "forest/forest_folder.h"
 #include "forest/forest_identity.h"
 #include "forest/merge_none.h"
 #include "forest/store.h"
@@ -21,6 +22,7 @@
 #include "leafhull/ranks.h"
 #include "pipeline/memory.h"
 #include "pipeline/stopwatch.h"
+#include "text/file_name.h"
 #include "tiles/compute_tile.h"
 #include "tiles/scene_control.h"
 #include "tiles/tile_count.h"
@@ -374,10 +376,23 @@ class Run {
   std::uint64_t leaf_vertices_ = 0;
 };
 
+/// Checks that the forest does not overwrite its trees.
+void check_models(const Scene& scene, const ForestPlan& plan) {
+  const OutputFolder& folder = plan.folder();
+  for (const SceneModel& model : scene.models) {
+    if (model.file.empty()) continue;
+    check_name(model.file, "the model", folder.path());
+    if (!plan.single()) continue;
+    const std::filesystem::path& single = plan.single()->path();
+    (void)folder.file(single, lower_extension(single), {model.file});
+  }
+}
+
 }  // namespace
 
 ForestSummary run_forest(const Scene& scene, const ForestPlan& plan, Device& device, Ranks& ranks,
                          const Progress& progress) {
+  check_models(scene, plan);
   const ForestOptions& options = plan.options();
   const std::filesystem::path& folder = plan.folder().path();
   const ThreadLimit limit(device.threads());

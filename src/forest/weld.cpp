@@ -159,15 +159,10 @@ void Weld::write_glb(std::ostream& stream) const {
 }  // namespace
 
 FileRecord weld(const StoredTiles& tiles, const fs::path& file) {
-  const std::string extension = lower_extension(file);
-  if (extension != ".glb" && extension != ".ply") {
-    throw Error(ErrorCode::usage, "all tiles cannot be welded into " + file.string(),
-                "Name a .glb or a .ply file.");
-  }
   ForestFolder& folder = tiles.folder();
   const Weld weld(tiles);
   const auto write = [&](std::ostream& stream) {
-    extension == ".ply" ? weld.write_ply(stream) : weld.write_glb(stream);
+    lower_extension(file) == ".ply" ? weld.write_ply(stream) : weld.write_glb(stream);
   };
   // Tell the forest of the file before it is there, so that a restart can remove it.
   const auto announce = [&](const FileRecord& record) {

@@ -4,6 +4,7 @@
 #include "leafhull/error.h"
 #include "leafhull/options.h"
 #include "options/messages.h"
+#include "text/choice.h"
 #include "text/numbers.h"
 
 namespace leafhull {
@@ -145,6 +146,11 @@ std::span<const std::string_view> names(Up) { return kUpNames; }
 std::span<const std::string_view> names(Hollows) { return kHollowsNames; }
 std::span<const std::string_view> names(Mesher) { return kMesherNames; }
 std::span<const std::string_view> names(Preset) { return kPresetNames; }
+
+Style style_named(std::string_view name) {
+  if (name == "luft-deussen") return Style::paper_previous;
+  return static_cast<Style>(choice("--style", name, names(Style{})));
+}
 
 int resolution_of(Preset preset) { return kPresetResolutions[static_cast<std::size_t>(preset)]; }
 

@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -20,6 +21,7 @@
 #include "output/report.h"
 #include "output/transaction.h"
 #include "output/vdb.h"
+#include "output/write_error.h"
 #include "output/writers.h"
 #include "surface/density_grid.h"
 #include "text/choice.h"
@@ -188,13 +190,22 @@ OutputFile::OutputFile(fs::path file, std::string_view extension,
   Destinations(inputs).add(path_);
 }
 
-void OutputFile::write(std::string_view bytes) const { write_file(path_, bytes); }
+void OutputFile::write(std::string_view bytes) const {
+  std::error_code error;
+  if (!folder_.empty()) fs::create_directories(folder_, error);
+  if (error) throw write_error(path_, error.value());
+  write_file(path_, bytes);
+}
 
 OutputFile OutputFolder::file(const fs::path& name, std::string_view extension,
                               const std::vector<fs::path>& inputs) const {
-  const bool is_within = fs::proximate(name, path_).parent_path().empty();
+  std::error_code error;
+  const bool is_within = fs::proximate(name, path_, error).parent_path().empty();
+  if (error) throw write_error(name, error.value());
+  const bool is_there = fs::exists(path_, error);
+  if (error) throw write_error(path_, error.value());
   const bool is_named_well = lower_extension(name) == extension;
-  if (is_within && is_named_well && !fs::exists(path_)) return OutputFile(name);
+  if (is_within && is_named_well && !is_there) return {name, path_};
   return {name, extension, inputs};
 }
 

@@ -152,9 +152,21 @@ std::string study_json(const Study& study) {
   return json.dump(2, ' ', false, OrderedJson::error_handler_t::replace) + "\n";
 }
 
+void check(const Study& study) {
+  if (study.trees.empty()) {
+    throw Error(ErrorCode::usage, "the study has no tree", "Add what study_tree gives for one.");
+  }
+  for (const TreeStudy& tree : study.trees) {
+    if (!tree.readings.empty()) continue;
+    throw Error(ErrorCode::usage, "the study of " + tree.name + " has no readings",
+                "Add what study_tree gives for it.");
+  }
+}
+
 }  // namespace
 
 void write_study(const Study& study, const OutputFolder& into) {
+  check(study);
   const fs::path& folder = into.path();
   const std::vector<TreePlots> plots = draw_plots(study);
   std::error_code error;

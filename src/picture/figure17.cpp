@@ -140,7 +140,7 @@ void write_figure17(const std::shared_ptr<const TreeModel>& tree, const LeafSet&
     picture.look = Look::watercolour;
     Picture watercolour = artist.draw(subject, picture, part(2)).picture;
     const std::array looks{std::move(phong), std::move(watercolour)};
-    rows.push_back({side_by_side(looks), {row.caption, parameters(subject.report())}});
+    rows.push_back({side_by_side(looks), {row.caption, parameters(*subject.report())}});
   }
   const std::vector<std::uint8_t> png = encode_png(contact_sheet("", rows, 1));
   write_file(plan.files.png.front(), {reinterpret_cast<const char*>(png.data()), png.size()});

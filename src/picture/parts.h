@@ -25,7 +25,7 @@ struct LeafCard {
 
 /// All parts of a subject in its scene. Parts that refer to each other stay together.
 struct Subject::Parts {
-  Report report;
+  std::optional<Report> report;  ///< of the extraction of a tree's shape
   render::Placement placement;
   std::vector<Vec3f> points;  ///< named viewpoints show these, with `reach` around each
   float reach = 0;

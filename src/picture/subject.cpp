@@ -9,6 +9,7 @@
 #include "leafhull/render.h"
 #include "picture/parts.h"
 #include "pipeline/finish_mesh.h"
+#include "render/frame.h"
 #include "render/light.h"
 #include "surface/metrics.h"
 #include "surface/polygonise.h"
@@ -24,7 +25,7 @@ constexpr std::string_view kShapeName = "abstract shape";
 
 /// Gives the parts their place in a scene about 1 large.
 void place(const Frame& frame, Parts& parts) {
-  const Box box = box_of(frame);
+  const Box box = render::box_of(frame);
   if (!(box.longest_side() > 0)) {
     throw Error(ErrorCode::input, "the subject has no extent", "Repair the model.");
   }
@@ -130,7 +131,7 @@ void add_positions(const TreeModel& model, std::span<const Instance> instances, 
   }
 }
 
-const Report& Subject::report() const { return parts_->report; }
+const Report* Subject::report() const { return parts_->report ? &*parts_->report : nullptr; }
 
 Subject tree_subject(std::shared_ptr<const TreeModel> tree, const LeafSet& leaves,
                      const Options& options, Surfacing surfacing, Device& device,
@@ -152,14 +153,14 @@ Subject tree_subject(std::shared_ptr<const TreeModel> tree, const LeafSet& leave
 
   Frame all = frame;
   if (all.points.empty()) {
-    all = frame_of(leaves, parts->report.radius_max_model);
+    all = frame_of(leaves, parts->report->radius_max_model);
     add_positions(*wood.model, wood.instances, all);
   }
   place(all, *parts);
   parts->leaves = cards_of(leaves, parts->placement);
   parts->leaf_kind = leaves.choice->kind;
   if (parts->leaf_kind != LeafKind::broad) point_outwards(parts->leaf_kind, parts->leaves);
-  parts->crown_colours = CrownColours::of(*whole, leaves, parts->report.radius_max_model);
+  parts->crown_colours = CrownColours::of(*whole, leaves, parts->report->radius_max_model);
 
   parts->embree = render::open_embree();
   Surfaces surfaces;
@@ -223,8 +224,6 @@ Subject field_subject(const std::filesystem::path& file, std::optional<double> t
   if (progress) progress({.stage = "read"});
   auto [read, origin] = read_field(file, threshold);
   const auto field = std::make_shared<const Field>(std::move(read));
-  parts->report.threshold = field->threshold();
-  parts->report.voxel_size = field->lattice().voxel_size;
   Frame frame{extent_of(*field), field->lattice().voxel_size};
   place(frame, *parts);
   parts->embree = render::open_embree();

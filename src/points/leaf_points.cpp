@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "points/leaf_points.h"
 
-
 #include <cmath>
 #include <cstdint>
 #include <tuple>

@@ -5,6 +5,7 @@
 #include "leafhull/error.h"
 #include "leafhull/picture.h"
 #include "render/draw_buffers.h"
+#include "render/frame.h"
 #include "render/mesh_target.h"
 #include "render/shade.h"
 
@@ -31,7 +32,6 @@ Picture draw(const Mesh& mesh, const Frame& view, const Box& box, int width, int
 }
 
 }  // namespace
-}  // namespace render
 
 Box box_of(const Frame& frame) {
   Box box;
@@ -39,6 +39,8 @@ Box box_of(const Frame& frame) {
   const Vec3d reach{frame.reach, frame.reach, frame.reach};
   return {box.low - reach, box.high + reach};
 }
+
+}  // namespace render
 
 Frame frame_of(const LeafSet& leaves, double radius_max) {
   Frame frame{{}, radius_max};
@@ -56,7 +58,7 @@ Picture draw_shape(const Mesh& mesh, const Frame& frame, int width, int height) 
   if (mesh.triangles.empty()) {
     return {width, height, std::vector<std::uint8_t>(std::size_t{3} * width * height, 255)};
   }
-  const Box box = box_of(frame);
+  const Box box = render::box_of(frame);
   if (!(box.longest_side() > 0)) {
     throw Error(ErrorCode::usage, "the frame of a picture has no extent");
   }

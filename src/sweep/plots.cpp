@@ -40,16 +40,16 @@ using Values = std::vector<std::vector<std::string_view>>;
 /// or some.
 Values drawn_values(const SweepPlan& plan, std::size_t axis) {
   std::vector<std::size_t> counts;
-  for (const SweptOption& option : plan.swept) counts.push_back(option.values.size());
+  for (const SweptOption& option : plan.swept()) counts.push_back(option.values.size());
   const std::size_t along = std::exchange(counts[axis], 1);
   const auto lines = [&] {
     return std::accumulate(counts.begin(), counts.end(), std::size_t{1}, std::multiplies<>());
   };
   // Leave out numbers before names: only numbers can be judged from those around them.
   const auto rank = [&](std::size_t i) {
-    return std::pair(counts[i] > 2 && takes_number(*plan.swept[i].row), counts[i]);
+    return std::pair(counts[i] > 2 && takes_number(*plan.swept()[i].row), counts[i]);
   };
-  while (plan.combinations.size() / along > kMostLines && lines() > kFewLines) {
+  while (plan.combinations().size() / along > kMostLines && lines() > kFewLines) {
     std::size_t widest = 0;
     for (std::size_t i = 1; i < counts.size(); ++i) {
       if (rank(i) > rank(widest)) widest = i;
@@ -59,7 +59,7 @@ Values drawn_values(const SweepPlan& plan, std::size_t axis) {
   counts[axis] = along;
   Values values;
   for (std::size_t i = 0; i < counts.size(); ++i) {
-    values.push_back(some_of(plan.swept[i].values, counts[i]));
+    values.push_back(some_of(plan.swept()[i].values, counts[i]));
   }
   return values;
 }
@@ -94,11 +94,11 @@ void sort_by_x(ChartLine& line) {
 
 std::string axis_label(const SweepPlan& plan, const OptionRow& row) {
   std::string unit(row.unit);
-  const bool units = std::any_of(plan.swept.begin(), plan.swept.end(),
+  const bool units = std::any_of(plan.swept().begin(), plan.swept().end(),
                                  [](const auto& o) { return o.row->name == "radius-unit"; });
   if (row.name == "radius-max" && !units) {
     constexpr std::string_view kUnits[] = {"crown units", "mean leaf radii", "model units"};
-    unit = kUnits[static_cast<std::size_t>(plan.combinations.front().radius_unit)];
+    unit = kUnits[static_cast<std::size_t>(plan.combinations().front().radius_unit)];
   }
   return std::string(row.name) + (unit.empty() ? "" : " (" + unit + ")");
 }
@@ -120,9 +120,9 @@ ChartPanel panel(const SweepPlan& plan, const std::map<std::size_t, Json>& rows,
 
 std::string title(const SweepPlan& plan, std::size_t axis, std::size_t lines,
                   std::string_view tree) {
-  const std::size_t all = plan.combinations.size() / plan.swept[axis].values.size();
+  const std::size_t all = plan.combinations().size() / plan.swept()[axis].values.size();
   const std::string what =
-      std::string(tree) + ": what " + std::string(plan.swept[axis].row->name) + " changes";
+      std::string(tree) + ": what " + std::string(plan.swept()[axis].row->name) + " changes";
   return lines == all
              ? what
              : what + " (" + std::to_string(lines) + " of " + std::to_string(all) + " lines drawn)";
@@ -130,7 +130,7 @@ std::string title(const SweepPlan& plan, std::size_t axis, std::size_t lines,
 
 Chart chart(const SweepPlan& plan, const std::map<std::size_t, Json>& rows, std::size_t axis,
             std::string_view tree) {
-  Chart chart{{}, axis_label(plan, *plan.swept[axis].row), {}};
+  Chart chart{{}, axis_label(plan, *plan.swept()[axis].row), {}};
   chart.panels = {panel(plan, rows, axis, "dilated voxels", "dilated_voxels"),
                   panel(plan, rows, axis, "off-site vertices (sampled)", "off_site_sampled")};
   chart.title = title(plan, axis, chart.panels.front().lines.size(), tree);
@@ -142,16 +142,16 @@ Chart chart(const SweepPlan& plan, const std::map<std::size_t, Json>& rows, std:
 std::vector<Plot> plots(const SweepPlan& plan, const std::map<std::size_t, Json>& rows,
                         std::string_view tree) {
   std::vector<Plot> plots;
-  for (std::size_t axis = 0; axis < plan.swept.size(); ++axis) {
-    if (!takes_number(*plan.swept[axis].row)) continue;
-    plots.push_back({file_of(plan.swept[axis]), chart(plan, rows, axis, tree)});
+  for (std::size_t axis = 0; axis < plan.swept().size(); ++axis) {
+    if (!takes_number(*plan.swept()[axis].row)) continue;
+    plots.push_back({file_of(plan.swept()[axis]), chart(plan, rows, axis, tree)});
   }
   return plots;
 }
 
 std::vector<std::string> plot_files(const SweepPlan& plan) {
   std::vector<std::string> files;
-  for (const SweptOption& option : plan.swept) {
+  for (const SweptOption& option : plan.swept()) {
     if (takes_number(*option.row)) files.push_back(file_of(option));
   }
   return files;

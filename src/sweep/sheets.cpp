@@ -30,7 +30,7 @@ std::string listed(const SweptOption& option) {
 
 std::vector<Sheet> sheets(const SweepPlan& plan) {
   const auto columns = static_cast<std::size_t>(sheet_columns(plan));
-  const std::size_t all = plan.combinations.size();
+  const std::size_t all = plan.combinations().size();
   const std::size_t rows = quotient_up(all, columns);
   const std::size_t count = quotient_up(rows, kMostPerSheet / columns);
   const std::size_t each = quotient_up(rows, count) * columns;
@@ -47,15 +47,15 @@ std::vector<Sheet> sheets(const SweepPlan& plan) {
 }
 
 int sheet_columns(const SweepPlan& plan) {
-  const std::size_t last = plan.swept.back().values.size();
+  const std::size_t last = plan.swept().back().values.size();
   if (last <= kMostColumns) return static_cast<int>(last);
-  const double square = std::ceil(std::sqrt(static_cast<double>(plan.combinations.size())));
+  const double square = std::ceil(std::sqrt(static_cast<double>(plan.combinations().size())));
   return std::min(static_cast<int>(kMostColumns), static_cast<int>(square));
 }
 
 std::string sheet_title(const SweepPlan& plan, std::string_view tree) {
   std::string title;
-  for (const SweptOption& option : plan.swept) {
+  for (const SweptOption& option : plan.swept()) {
     title += (title.empty() ? std::string(tree) + ": " : "; ") + listed(option);
   }
   return title;

@@ -71,7 +71,7 @@ std::vector<fs::path> results(const Files& files, const SweepPlan& plan) {
   std::vector<fs::path> all = {files.csv(), files.json()};
   for (const std::string& plot : plot_files(plan)) all.push_back(files.folder() / plot);
   for (const Sheet& sheet : sheets(plan)) all.push_back(files.folder() / sheet.file);
-  for (std::size_t i = 0; i < plan.combinations.size(); ++i) {
+  for (std::size_t i = 0; i < plan.combinations().size(); ++i) {
     all.push_back(files.pictures() / picture_name(plan, i));
   }
   return all;
@@ -116,7 +116,7 @@ std::vector<std::size_t> remaining(const Files& files, const SweepPlan& plan,
            is_picture(files.pictures() / picture_name(plan, i));
   };
   std::vector<std::size_t> todo;
-  for (std::size_t i = 0; i < plan.combinations.size(); ++i) {
+  for (std::size_t i = 0; i < plan.combinations().size(); ++i) {
     if (!is_done(i)) todo.push_back(i);
   }
   return todo;
@@ -124,7 +124,7 @@ std::vector<std::size_t> remaining(const Files& files, const SweepPlan& plan,
 
 double largest_radius(const LeafSet& leaves, const SweepPlan& plan) {
   double radius = 0;
-  for (const Options& options : plan.combinations) {
+  for (const Options& options : plan.combinations()) {
     radius = std::max(radius, radius_max_in_model_units(leaves, options));
   }
   return radius;
@@ -141,7 +141,7 @@ void add_times(std::vector<StageTime>& sums, const std::vector<StageTime>& times
 }
 
 Advance counted(std::string_view stage, std::size_t finished, const SweepPlan& plan) {
-  const std::size_t all = plan.combinations.size();
+  const std::size_t all = plan.combinations().size();
   return {.stage = stage,
           .done = static_cast<double>(finished) / static_cast<double>(all),
           .finished = finished,
@@ -155,10 +155,10 @@ std::vector<StageTime> extract_remaining(const LeafSet& leaves, const SweepPlan&
   using Clock = std::chrono::steady_clock;
   const std::vector<std::size_t> todo = remaining(files, plan, journal);
   std::vector<Options> options;
-  for (const std::size_t i : todo) options.push_back(plan.combinations[i]);
+  for (const std::size_t i : todo) options.push_back(plan.combinations()[i]);
   const Frame frame = frame_of(leaves, largest_radius(leaves, plan));
   std::vector<StageTime> sums;
-  std::size_t done = plan.combinations.size() - todo.size();
+  std::size_t done = plan.combinations().size() - todo.size();
   const auto tell = [&](std::string_view stage) {
     if (progress) progress(counted(stage, done, plan));
   };
@@ -222,7 +222,7 @@ SweepSummary run_sweep(const LeafSet& leaves, const SweepPlan& plan, Device& dev
                        const Progress& progress) {
   Files files(folder.folder.path());
   const Json header = header_of(identity(leaves, plan, device.info()), files, plan);
-  check_series(leaves, plan.combinations);
+  check_series(leaves, plan.combinations());
   files.make_folder(files.folder());
   if (!folder.restart && !fs::exists(files.journal())) check_nothing_is_lost(files, plan);
   Journal journal(files.journal());
@@ -238,7 +238,7 @@ SweepSummary run_sweep(const LeafSet& leaves, const SweepPlan& plan, Device& dev
   files.remove_unfinished();
 
   SweepSummary summary;
-  summary.combinations = plan.combinations.size();
+  summary.combinations = plan.combinations().size();
   summary.resumed = summary.combinations - remaining(files, plan, journal).size();
   const bool with_plots = !plot_files(plan).empty() && can_draw_charts();
   if (!with_plots && !plot_files(plan).empty()) {

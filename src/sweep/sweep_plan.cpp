@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <utility>
 
 #include "leafhull/error.h"
 #include "leafhull/version.h"
@@ -35,7 +36,7 @@ Json parameters(const Options& options) {
 Json option_values(const SweepPlan& plan) {
   Json values = Json::object();
   std::map<std::string, std::set<Json>> seen;
-  for (const Options& options : plan.combinations) {
+  for (const Options& options : plan.combinations()) {
     const Json resolved = parameters(options);
     for (const auto& [name, value] : resolved.items()) {
       if (seen[name].insert(value).second) values[name].push_back(value);
@@ -74,11 +75,56 @@ std::string file_text(std::string text) {
   return text;
 }
 
+[[noreturn]] void refuse_option(const SweptOption& option, const std::string& why,
+                                const std::string& remedy) {
+  throw Error(ErrorCode::usage, "--" + std::string(option.row->name) + " " + why, remedy);
+}
+
+/// Sorts the options as in option_table(), which is one array.
+std::vector<SweptOption> in_order(std::vector<SweptOption> swept) {
+  std::ranges::sort(swept, {}, &SweptOption::row);
+  const auto twice = std::ranges::adjacent_find(swept, {}, &SweptOption::row);
+  if (twice != swept.end()) refuse_option(*twice, "is swept twice", "Give all its values at once.");
+  return swept;
+}
+
+std::vector<Options> combined(const Options& options, const std::vector<SweptOption>& swept) {
+  std::vector<Options> all = {options};
+  for (const SweptOption& option : swept) {
+    std::vector<Options> finer;
+    finer.reserve(all.size() * option.values.size());
+    for (const Options& coarse : all) {
+      for (const std::string& value : option.values) {
+        set_swept(finer.emplace_back(coarse), *option.row, value);
+      }
+    }
+    all = std::move(finer);
+  }
+  for (Options& combination : all) combination = resolve(combination);
+  return all;
+}
+
 }  // namespace
+
+SweepPlan plan_sweep(const Options& options, std::vector<SweptOption> swept) {
+  if (swept.empty()) {
+    throw Error(ErrorCode::usage, "no option is swept", "Give one a range or a list.");
+  }
+  for (SweptOption& option : swept) {
+    if (!can_sweep(*option.row)) refuse_option(option, "cannot be swept", "Give it one value.");
+    if (option.values.empty()) refuse_option(option, "has no values", "Give it a range or a list.");
+    const bool is_unread = takes_number(*option.row) && option.values.size() == 1;
+    if (is_unread) option = swept_number(*option.row, option.values.front());
+  }
+  swept = in_order(std::move(swept));
+  (void)combination_count(swept);
+  std::vector<Options> combinations = combined(options, swept);
+  return {std::move(swept), std::move(combinations)};
+}
 
 Json identity(const LeafSet& leaves, const SweepPlan& plan, const DeviceInfo& device) {
   Json swept = Json::array();
-  for (const SweptOption& option : plan.swept) swept.push_back(option.row->name);
+  for (const SweptOption& option : plan.swept()) swept.push_back(option.row->name);
   return {{"schema", kJournalSchema},
           {"version", kVersion},
           {"leaves",
@@ -98,9 +144,9 @@ void check_same_sweep(const Json& there, const Json& here, const std::filesystem
 }
 
 std::vector<std::string_view> values_of(const SweepPlan& plan, std::size_t combination) {
-  std::vector<std::string_view> values(plan.swept.size());
-  for (std::size_t i = plan.swept.size(); i-- > 0;) {
-    const std::vector<std::string>& all = plan.swept[i].values;
+  std::vector<std::string_view> values(plan.swept().size());
+  for (std::size_t i = plan.swept().size(); i-- > 0;) {
+    const std::vector<std::string>& all = plan.swept()[i].values;
     values[i] = all[combination % all.size()];
     combination /= all.size();
   }
@@ -111,14 +157,14 @@ std::vector<std::string> labels(const SweepPlan& plan, std::size_t combination) 
   const std::vector<std::string_view> values = values_of(plan, combination);
   std::vector<std::string> labels;
   for (std::size_t i = 0; i < values.size(); ++i) {
-    labels.push_back(std::string(plan.swept[i].row->name) + " " + std::string(values[i]));
+    labels.push_back(std::string(plan.swept()[i].row->name) + " " + std::string(values[i]));
   }
   return labels;
 }
 
 std::string picture_name(const SweepPlan& plan, std::size_t combination) {
   constexpr std::size_t kLongest = 200;  // file systems take 255
-  const std::size_t width = std::to_string(plan.combinations.size()).size();
+  const std::size_t width = std::to_string(plan.combinations().size()).size();
   std::string name = std::to_string(combination + 1);
   name.insert(0, width - name.size(), '0');
   for (const std::string& label : labels(plan, combination)) name += "-" + file_text(label);

@@ -23,6 +23,14 @@ void check_same_sweep(const Json& there, const Json& here, const std::filesystem
 
 bool takes_number(const OptionRow& row);
 
+/// A number, perhaps with %, as swept_option() writes it in a list.
+/// @throws Error usage: `text` is not a number.
+SweptOption swept_number(const OptionRow& row, const std::string& text);
+
+/// Reads a value of a swept option into its member. resolve() checks ranges.
+/// @throws Error usage: `text` is not a number, or not one of the names.
+void set_swept(Options& options, const OptionRow& row, const std::string& text);
+
 /// The values of the swept options in a combination.
 std::vector<std::string_view> values_of(const SweepPlan& plan, std::size_t combination);
 

@@ -42,8 +42,8 @@ std::vector<std::string> keys(const std::map<std::size_t, Json>& rows, const cha
 std::vector<Column> columns(const SweepPlan& plan, const std::map<std::size_t, Json>& rows) {
   std::vector<Column> columns;
   std::vector<std::string> taken = {"leaves", "ellipse", "threshold"};
-  for (std::size_t i = 0; i < plan.swept.size(); ++i) {
-    taken.push_back(to_key(plan.swept[i].row->name));
+  for (std::size_t i = 0; i < plan.swept().size(); ++i) {
+    taken.push_back(to_key(plan.swept()[i].row->name));
     columns.push_back({taken.back(), [&plan, i](std::size_t combination, const Json&) {
                          return Json(values_of(plan, combination)[i]);
                        }});

@@ -7,9 +7,11 @@
 #include <optional>
 #include <set>
 #include <type_traits>
+#include <utility>
 
 #include "leafhull/error.h"
 #include "sweep/sweep_plan.h"
+#include "text/choice.h"
 #include "text/numbers.h"
 
 namespace leafhull {
@@ -133,6 +135,51 @@ bool take_percent(const OptionRow& row, std::string_view text,
   return true;
 }
 
+/// The numbers of a list, or of a range from its three parts.
+SweptOption swept_numbers(const OptionRow& row, std::string_view text,
+                          std::vector<std::string_view> parts, bool is_range) {
+  const bool percent = take_percent(row, text, parts);
+  std::vector<double> numbers;
+  for (const std::string_view part : parts) numbers.push_back(number(row, text, part));
+  const bool fraction = percent && row.percent.empty();
+  if (fraction) {
+    for (double& n : numbers) n /= 100;
+  }
+  std::vector<std::string> values;
+  if (is_range) {
+    values = range(row, text, numbers);
+  } else {
+    std::transform(numbers.begin(), numbers.end(), std::back_inserter(values), written);
+  }
+  refuse_twice(row, text, values);
+  return {percent && !fraction ? &option_row(row.percent) : &row, values};
+}
+
+/// Reads a number or a name; other members cannot be swept.
+template <class Value>
+void set_member(Value& value, const OptionRow& row, const std::string& text) {
+  if constexpr (std::is_same_v<Value, double> || std::is_same_v<Value, int>) {
+    const std::optional<Value> read = parsed<Value>(text);
+    const bool whole = std::is_same_v<Value, int>;
+    if (!read) {
+      refuse(row, text, whole ? "is not a whole number" : "is not a number",
+             whole ? "Give a number such as 2." : "Give a number such as 1.5.");
+    }
+    value = *read;
+  } else if constexpr (std::is_same_v<Value, Style>) {
+    value = style_named(text);
+  } else if constexpr (std::is_enum_v<Value>) {
+    value = static_cast<Value>(choice("--" + std::string(row.name), text, names(value)));
+  } else {
+    refuse(row, text, "cannot be swept", "Give it one value.");
+  }
+}
+
+template <class Value>
+void set_member(std::optional<Value>& value, const OptionRow& row, const std::string& text) {
+  set_member(value.emplace(), row, text);
+}
+
 }  // namespace
 
 bool takes_number(const OptionRow& row) { return kind_of(row) == Kind::number; }
@@ -156,21 +203,15 @@ SweptOption swept_option(const OptionRow& row, std::string_view text) {
     refuse_twice(row, text, names);
     return {&row, names};
   }
-  const bool percent = take_percent(row, text, parts);
-  std::vector<double> numbers;
-  for (const std::string_view part : parts) numbers.push_back(number(row, text, part));
-  const bool fraction = percent && row.percent.empty();
-  if (fraction) {
-    for (double& n : numbers) n /= 100;
-  }
-  std::vector<std::string> values;
-  if (is_range) {
-    values = range(row, text, numbers);
-  } else {
-    std::transform(numbers.begin(), numbers.end(), std::back_inserter(values), written);
-  }
-  refuse_twice(row, text, values);
-  return {percent && !fraction ? &option_row(row.percent) : &row, values};
+  return swept_numbers(row, text, std::move(parts), is_range);
+}
+
+SweptOption swept_number(const OptionRow& row, const std::string& text) {
+  return swept_numbers(row, text, {text}, false);
+}
+
+void set_swept(Options& options, const OptionRow& row, const std::string& text) {
+  std::visit([&](auto member) { set_member(options.*member, row, text); }, row.member);
 }
 
 std::size_t combination_count(std::span<const SweptOption> swept) {

@@ -191,6 +191,25 @@ TEST(WriteStudy, MakesTheFolder) {
   EXPECT_TRUE(std::filesystem::exists(folder / "new/report.html"));
 }
 
+TEST(WriteStudy, RefusesAStudyOfNothing) {
+  const TemporaryFolder folder;
+  const auto refusal = [&](const Study& study) -> std::string {
+    try {
+      write_study(study, OutputFolder(folder / "new"));
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::usage);
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(refusal({}), "the study has no tree");
+  Study study = sample_study();
+  study.trees.back().name = "birch";
+  study.trees.back().readings.clear();
+  EXPECT_EQ(refusal(study), "the study of birch has no readings");
+  EXPECT_EQ(folder.names(), std::set<std::string>{});
+}
+
 TEST(WriteStudy, WritesAllOrNothing) {
   const TemporaryFolder folder;
   std::filesystem::create_directory(folder / "study.json");

@@ -248,10 +248,5 @@ TEST_F(ForestWeld, ACrackIsAnError) {
   }
 }
 
-TEST_F(ForestWeld, RefusesOtherFormats) {
-  EXPECT_TRUE(failure_of([&] { put(sample_tiles(), {}, "all.obj"); }).starts_with("2 "));
-  EXPECT_FALSE(fs::exists(folder / "all.obj"));
-}
-
 }  // namespace
 }  // namespace leafhull::test

@@ -170,6 +170,18 @@ TEST(OutputFolder, HasFilesBeforeItIsMade) {
   EXPECT_EQ(code_of(folder / "new", folder / "other" / "a.json"), ErrorCode::output);
   EXPECT_EQ(code_of(folder.path(), folder / "a.json"), ErrorCode{});
   EXPECT_EQ(code_of(folder.path(), folder / "tree.json"), ErrorCode::usage) << "the second input";
+  fs::create_symlink("loop", folder / "loop");
+  EXPECT_EQ(code_of(folder / "new", folder / "loop" / "a.json"), ErrorCode::output);
+}
+
+TEST(OutputFolder, IsMadeForItsFiles) {
+  const TemporaryFolder folder;
+  const fs::path within = folder / "new" / "newer", name = within / "a.json";
+  const OutputFile file = OutputFolder(within).file(name, ".json", {});
+  EXPECT_EQ(file.path(), name);
+  EXPECT_FALSE(fs::exists(folder / "new"));
+  file.write("{}");
+  EXPECT_EQ(fs::file_size(name), 2u);
 }
 
 }  // namespace

@@ -98,6 +98,10 @@ TEST(Views, MayLookAway) {
   EXPECT_EQ(rendering.picture.rgb, std::vector<std::uint8_t>(3 * 81, 255));
 }
 
+TEST(Subjects, HaveNoReportWhereNothingWasExtracted) {
+  EXPECT_EQ(shape_subject(cube()).report(), nullptr);
+}
+
 TEST(Views, GoRoundTheMiddleOfTheSubject) {
   const Subject subject = shape_subject(cube());
   PictureOptions options = facing_the_cube(8, 8);
@@ -129,6 +133,7 @@ TEST(Views, OfADensityAreInTheUnitsOfItsFile) {
   const Vec3d middle(100 + 3.75, 3.75, 3.75);
   for (const Surfacing surfacing : {Surfacing::direct, Surfacing::mesh}) {
     const Subject ball = field_subject(folder / "ball.vdb", 1.0, surfacing, device());
+    EXPECT_EQ(ball.report(), nullptr);
     options.camera = View{.eye = middle + Vec3d(0, 0, 20), .target = middle, .angle = 30};
     EXPECT_EQ(draw(ball, options, device()).buffers->object[4 * 9 + 4], render::Object::foliage);
     std::get<View>(options.camera).target.x = 0;
@@ -238,7 +243,7 @@ TEST_F(Trees, HaveACardForEveryLeaf) {
   EXPECT_NEAR(length(card->half_minor), vertex.radius_minor * scale, 1e-6f);
   EXPECT_LT(length(card->centre - parts.placement(vertex.position)),
             4 * vertex.radius_major * scale);
-  EXPECT_GT(subject.report().threshold, 0);
+  EXPECT_GT(subject.report()->threshold, 0);
 }
 
 TEST_F(Trees, DirectAndMeshSeeTheSame) {
@@ -285,7 +290,7 @@ TEST_F(Trees, HaveTheColoursOfTheirLeavesWhereTheyAre) {
     int left = 0, right = 0, wrong = 0;
     const auto look = [&](render::Object object, Vec3f position, Vec3f color) {
       const double x = double{position.x} / placement.scale + placement.origin.x;
-      const bool is_near_both = std::abs(x) < 2 * subject.report().radius_max_model;
+      const bool is_near_both = std::abs(x) < 2 * subject.report()->radius_max_model;
       if (object != render::Object::foliage || is_near_both) return;
       ++(x < 0 ? left : right);
       wrong += (color.x > color.y) != (x < 0);

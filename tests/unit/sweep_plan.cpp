@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "leafhull/error.h"
 #include "sweep/plots.h"
@@ -30,26 +31,22 @@ const DeviceInfo kDevice = [] {
   return device;
 }();
 
-/// A plan over methods and thresholds; its options hold only the threshold.
-SweepPlan plan(const std::string& thresholds, const std::string& methods) {
-  SweepPlan plan{{swept_option(option_row("method"), methods),
-                  swept_option(option_row("threshold"), thresholds)},
-                 {}};
-  const std::size_t count = combination_count(plan.swept);
-  for (std::size_t i = 0; i < count; ++i) {
-    Options options;
-    options.threshold = std::stod(std::string(values_of(plan, i)[1]));
-    plan.combinations.push_back(resolve(options));
-  }
-  return plan;
+SweptOption swept(std::string_view option, std::string_view values) {
+  return swept_option(option_row(option), values);
+}
+
+/// A plan over methods and thresholds.
+SweepPlan plan(const std::string& thresholds, const std::string& methods,
+               const Options& options = {}) {
+  return plan_sweep(options, {swept("threshold", thresholds), swept("method", methods)});
 }
 
 std::map<std::size_t, Json> rows_of(const SweepPlan& plan) {
   std::map<std::size_t, Json> rows;
-  for (std::size_t i = 0; i < plan.combinations.size(); ++i) {
+  for (std::size_t i = 0; i < plan.combinations().size(); ++i) {
     SeriesEntry entry;
     Report& report = entry.report;
-    report.options = plan.combinations[i];
+    report.options = plan.combinations()[i];
     report.threshold = *report.options.threshold;
     report.metrics.dilated_voxels = 100 + i;
     report.metrics.off_site_sampled = 200 + i;
@@ -71,6 +68,61 @@ TEST(SweepPlan, TheLastOptionChangesFastest) {
   EXPECT_EQ(values_of(sweep, 2), (Values{"isotropic", "3"}));
   EXPECT_EQ(values_of(sweep, 3), (Values{"controlled", "1"}));
   EXPECT_EQ(picture_name(sweep, 4), "5-method-controlled-threshold-2.png");
+}
+
+TEST(SweepPlan, CombinesWhatOptionsSay) {
+  Options options;
+  options.flatness = 0.5;
+  const SweepPlan sweep =
+      plan_sweep(options, {swept("falloff", "1,3"), swept("coverage", "80%:90%:10%"),
+                           swept("style", "luft-deussen,thin"), swept("resolution", "32")});
+  std::vector<std::string_view> names;
+  for (const SweptOption& option : sweep.swept()) names.push_back(option.row->name);
+  EXPECT_EQ(names, (std::vector<std::string_view>{"style", "coverage", "falloff", "resolution"}));
+  ASSERT_EQ(sweep.combinations().size(), 8u);
+  const Options& third = sweep.combinations()[2];
+  EXPECT_EQ(third.style, Style::paper_previous);
+  EXPECT_EQ(third.coverage, 0.9);
+  EXPECT_EQ(third.falloff, 1);
+  EXPECT_EQ(third.resolution, 32);
+  EXPECT_EQ(third.flatness, 0.5);
+  EXPECT_EQ(third.method, Method::isotropic) << "resolved";
+  EXPECT_EQ(sweep.combinations()[7].style, Style::thin);
+}
+
+TEST(SweepPlan, ReadsASinglePercentage) {
+  const SweepPlan sweep = plan_sweep({}, {swept("threshold", "40%")});
+  EXPECT_EQ(sweep.swept().front().row->name, "threshold-percent");
+  EXPECT_EQ(sweep.combinations().at(0).threshold_percent, 40);
+}
+
+/// The usage error of a sweep; empty where it is accepted.
+std::string refusal(std::vector<SweptOption> swept) {
+  try {
+    (void)plan_sweep({}, std::move(swept));
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::usage);
+    EXPECT_NE(error.remedy(), "");
+    return error.what();
+  }
+  return "";
+}
+
+TEST(SweepPlan, RefusesWhatCannotBeSwept) {
+  EXPECT_EQ(refusal({}), "no option is swept");
+  EXPECT_EQ(refusal({swept("threshold", "1,2"), swept("method", "isotropic,controlled"),
+                     swept("threshold", "3,4")}),
+            "--threshold is swept twice");
+  EXPECT_EQ(refusal({{&option_row("leaf-scale"), {"1", "2"}}}), "--leaf-scale cannot be swept");
+  EXPECT_EQ(refusal({{&option_row("threshold"), {}}}), "--threshold has no values");
+  EXPECT_EQ(refusal({{&option_row("threshold"), {"1", "two"}}}),
+            "--threshold 'two' is not a number");
+  EXPECT_EQ(refusal({swept("falloff", "1,1.5")}), "--falloff '1.5' is not a whole number");
+  EXPECT_NE(refusal({swept("method", "isotropic,contolled")}).find("contolled"), std::string::npos);
+  EXPECT_NE(refusal({swept("falloff", "1,9")}).find("out of range"), std::string::npos);
+  EXPECT_NE(refusal({swept("threshold", "1:1000:1"), swept("radius-max", "1:1000:1")})
+                .find("more than a sweep can hold"),
+            std::string::npos);
 }
 
 TEST(SweepPlan, PictureNamesSort) {
@@ -111,11 +163,9 @@ TEST(SweepPlan, TellsSweepsApart) {
   const std::string values = difference(leaf(), plan("1,3", "isotropic,controlled"), kDevice);
   EXPECT_NE(values.find("--threshold is 1.0, 3.0, not 1.0, 2.0"), std::string::npos) << values;
 
-  SweepPlan coarse = same;
-  for (Options& options : coarse.combinations) {
-    options.preset.reset();
-    options.resolution = 32;
-  }
+  Options options;
+  options.resolution = 32;
+  const SweepPlan coarse = plan("1,2", "isotropic,controlled", options);
   EXPECT_NE(difference(leaf(), coarse, kDevice).find("--preset is unset"), std::string::npos);
 }
 
@@ -136,10 +186,9 @@ TEST(SweepPlan, PlotsHaveALineForEachOtherCombination) {
 }
 
 TEST(SweepPlan, PlotsSayHowManyLinesTheyLeaveOut) {
-  SweepPlan sweep = plan("1,2", "isotropic,controlled");
-  sweep.swept[0] = swept_option(option_row("radius-max"), "1:40:1");
-  sweep.combinations.assign(80, sweep.combinations[0]);
-  const Chart chart = plots(sweep, rows_of(sweep), "tree.glb").at(1).chart;
+  const SweepPlan sweep =
+      plan_sweep({}, {swept("radius-max", "1:40:1"), swept("threshold", "1,2")});
+  const Chart chart = plots(sweep, rows_of(sweep), "tree.glb").at(0).chart;
   const auto& lines = chart.panels[0].lines;
   EXPECT_EQ(lines.size(), 6u);
   EXPECT_EQ(lines.front().name, "radius-max 1");
@@ -148,9 +197,8 @@ TEST(SweepPlan, PlotsSayHowManyLinesTheyLeaveOut) {
 }
 
 TEST(SweepPlan, PlotsLeaveOutNumbersBeforeNames) {
-  SweepPlan sweep = plan("1:7:1", "isotropic,uncontrolled,controlled");
-  sweep.swept.push_back(swept_option(option_row("flatness"), "0.5,1"));
-  sweep.combinations.assign(42, sweep.combinations[0]);
+  const SweepPlan sweep = plan_sweep({}, {swept("method", "isotropic,uncontrolled,controlled"),
+                                          swept("threshold", "1:7:1"), swept("flatness", "0.5,1")});
   const Chart chart = plots(sweep, rows_of(sweep), "tree.glb").at(1).chart;
   std::vector<std::string> names;
   for (const ChartLine& line : chart.panels[0].lines) names.push_back(line.name);
@@ -171,7 +219,7 @@ TEST(SweepPlan, SheetsHoldEveryCombinationOnce) {
       EXPECT_LE(page.end - page.begin, 80u);
       next = page.end;
     }
-    EXPECT_EQ(next, sweep.combinations.size());
+    EXPECT_EQ(next, sweep.combinations().size());
     EXPECT_EQ(pages.size() == 1, pages[0].file == "contact-sheet.png");
   }
   EXPECT_EQ(sheet_columns(plan("1:9:1", "isotropic,controlled")), 9);
