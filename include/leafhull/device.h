@@ -50,8 +50,7 @@ LEAFHULL_API std::vector<DeviceInfo> list_devices(const DeviceOptions& options);
 /// An opened OpenCL device with leafhull's programs. Threads that share one take turns, each
 /// waiting for its own work, so that within a thread the device's work and TBB's never overlap.
 /// `threads` reaches PoCL through the environment and counts only before the process's first OpenCL
-/// call. Where PoCL may use all cores, each of its threads is told to keep to one
-/// (POCL_AFFINITY=1), unless the environment says otherwise: POCL_AFFINITY=0.
+/// call.
 class Device {
  public:
   /// @throws Error device: none, no such one, or one that cannot be opened; usage: no such variant.

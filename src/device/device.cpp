@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "leafhull/device.h"
 
-#include <sched.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cctype>
 #include <charconv>
@@ -38,26 +35,8 @@ std::string lower(std::string text) {
   return text;
 }
 
-/// Whether PoCL's thread i may keep to core i: there is one for each core of the machine, and the
-/// process may use them all.
-bool may_pin_threads(int threads) {
-#ifdef __linux__
-  cpu_set_t allowed;
-  const long cores = sysconf(_SC_NPROCESSORS_CONF);
-  return (threads <= 0 || threads == cores) && !std::getenv("POCL_MAX_PTHREAD_COUNT") &&
-         !std::getenv("POCL_CPU_MAX_CU_COUNT") &&
-         sched_getaffinity(0, sizeof allowed, &allowed) == 0 && CPU_COUNT(&allowed) == cores;
-#else
-  (void)threads;
-  return false;
-#endif
-}
-
-/// PoCL reads from the environment, once, at the first OpenCL call, how many threads it may start
-/// and whether each keeps to a core. Where they do not, two of them often share a core for the
-/// whole of a launch.
-void set_up_pocl(int threads) {
-  if (may_pin_threads(threads)) setenv("POCL_AFFINITY", "1", /*overwrite=*/0);
+/// PoCL reads how many threads it may start from the environment, once, at the first OpenCL call.
+void bound_pocl_threads(int threads) {
   if (threads <= 0) return;
   const std::string count = std::to_string(threads);
   for (const char* name : {"POCL_MAX_PTHREAD_COUNT", "POCL_CPU_MAX_CU_COUNT"}) {  // PoCL < 4, >= 4
@@ -204,7 +183,7 @@ std::span<const DeviceOptionRow> device_table() {
 }
 
 std::vector<DeviceInfo> list_devices(const DeviceOptions& options) {
-  set_up_pocl(options.threads);
+  bound_pocl_threads(options.threads);
   std::vector<Found> found = find_devices();
   choose(found, options);
   std::vector<DeviceInfo> infos;
@@ -218,7 +197,7 @@ Device::Device(const DeviceOptions& options) : engine_(std::make_unique<Engine>(
     throw Error(ErrorCode::usage, "there is no kernel variant '" + options.variant + "'",
                 "Use vector or work-item.");
   }
-  set_up_pocl(options.threads);
+  bound_pocl_threads(options.threads);
   std::vector<Found> devices = find_devices();
   if (devices.empty()) throw Error(ErrorCode::device, "no OpenCL device was found", kInstallPocl);
   const auto chosen = choose(devices, options);
@@ -267,7 +246,7 @@ bool Device::may_overlap() const {
 
 std::future<Device> open_device(const DeviceOptions& options, int falloff) {
   // This must happen here: no thread may write the environment while another reads it.
-  set_up_pocl(options.threads);
+  bound_pocl_threads(options.threads);
   const auto when = options.threads == 1 ? std::launch::deferred : std::launch::async;
   return std::async(when, [options, falloff] {
     Device device(options);
