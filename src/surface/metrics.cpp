@@ -10,6 +10,7 @@
 #include <array>
 #include <bit>
 #include <cstring>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -21,18 +22,33 @@ namespace {
 
 using Accessor = openvdb::FloatGrid::ConstAccessor;
 
-/// Whether N >= T at 64 samples of a brick that share an x; bit 8 y + z.
-std::uint64_t inside_layer(const Accessor& negated, float iso, const openvdb::Coord& at) {
-  const Brick* brick = negated.probeConstLeaf(at);
-  if (!brick) return negated.getValue(at) < iso ? ~std::uint64_t{0} : 0;
-  const float* values = brick->buffer().data() + 64 * (at.x() & (kBrickEdge - 1));
+/// Whether N >= T at the samples of a brick and at the first ones beyond it in x: a word per x, bit
+/// 8 y + z.
+using Layers = std::array<std::uint64_t, kBrickEdge + 1>;
+
+std::uint64_t inside_layer(const float* negated, float iso) {
   std::uint64_t layer = 0;
   for (int y = 0; y < kBrickEdge; ++y) {
     Floats row;
-    std::memcpy(&row, values + kBrickEdge * y, sizeof row);
+    std::memcpy(&row, negated + kBrickEdge * y, sizeof row);
     layer |= std::uint64_t{bits_of(row < iso)} << (kBrickEdge * y);
   }
   return layer;
+}
+
+Layers inside_layers(const Accessor& negated, float iso, const openvdb::Coord& origin) {
+  Layers layers;
+  const auto fill = [&](const openvdb::Coord& at, std::span<std::uint64_t> words) {
+    if (const Brick* brick = negated.probeConstLeaf(at)) {
+      const float* values = brick->buffer().data();
+      for (std::size_t x = 0; x < words.size(); ++x) words[x] = inside_layer(values + 64 * x, iso);
+    } else {
+      std::ranges::fill(words, negated.getValue(at) < iso ? ~std::uint64_t{0} : 0);
+    }
+  };
+  fill(origin, std::span(layers).first(kBrickEdge));
+  fill(origin.offsetBy(kBrickEdge, 0, 0), std::span(layers).last(1));
+  return layers;
 }
 
 /// The squares between the samples of a layer and their neighbours in y and z, at the bits of their
@@ -41,19 +57,15 @@ struct Squares {
   std::uint64_t all, some;  ///< corners inside
 };
 
-Squares squares(const Accessor& negated, float iso, const openvdb::Coord& at) {
-  const auto layer = [&](int y, int z) { return inside_layer(negated, iso, at.offsetBy(0, y, z)); };
-  const auto next_y = [](std::uint64_t here, std::uint64_t above) {
-    return here >> 8 | above << 56;
+/// `y` etc.: the layer of the next brick in that direction.
+Squares squares(std::uint64_t here, std::uint64_t y, std::uint64_t z, std::uint64_t yz) {
+  const auto next_y = [](std::uint64_t low, std::uint64_t high) { return low >> 8 | high << 56; };
+  const auto next_z = [](std::uint64_t low, std::uint64_t high) {
+    return (low >> 1 & 0x7f7f7f7f7f7f7f7f) | (high << 7 & 0x8080808080808080);
   };
-  const auto next_z = [](std::uint64_t here, std::uint64_t above) {
-    return (here >> 1 & 0x7f7f7f7f7f7f7f7f) | (above << 7 & 0x8080808080808080);
-  };
-  const std::uint64_t low = layer(0, 0), y_low = layer(8, 0);
-  const std::uint64_t z = next_z(low, layer(0, 8));
-  const std::uint64_t y_z = next_z(y_low, layer(8, 8));
-  const std::uint64_t y = next_y(low, y_low), yz = next_y(z, y_z);
-  return {low & z & y & yz, low | z | y | yz};
+  const std::uint64_t at_y = next_y(here, y), at_z = next_z(here, z);
+  const std::uint64_t at_yz = next_y(at_z, next_z(y, yz));
+  return {here & at_y & at_z & at_yz, here | at_y | at_z | at_yz};
 }
 
 struct VoxelCount {
@@ -64,10 +76,14 @@ struct VoxelCount {
 };
 
 VoxelCount count_brick(const Accessor& negated, float iso, const openvdb::Coord& origin) {
+  const auto layers = [&](int y, int z) {
+    return inside_layers(negated, iso, origin.offsetBy(0, y, z));
+  };
+  const Layers here = layers(0, 0), y = layers(8, 0), z = layers(0, 8), yz = layers(8, 8);
   VoxelCount count;
-  Squares low = squares(negated, iso, origin);
-  for (int x = 1; x <= kBrickEdge; ++x) {
-    const Squares high = squares(negated, iso, origin.offsetBy(x, 0, 0));
+  Squares low = squares(here[0], y[0], z[0], yz[0]);
+  for (std::size_t x = 1; x <= kBrickEdge; ++x) {
+    const Squares high = squares(here[x], y[x], z[x], yz[x]);
     const std::uint64_t all = low.all & high.all, some = low.some | high.some;
     count = count + VoxelCount{static_cast<std::uint64_t>(std::popcount(all)),
                                static_cast<std::uint64_t>(std::popcount(some & ~all))};
