@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <ranges>
 #include <string>
 #include <vector>
 
@@ -70,9 +71,9 @@ class NodeKinds {
       unknown.push_back(node);
     }
     std::optional<LeafKind> kind = node < 0 ? std::nullopt : kinds_[node];
-    for (auto n = unknown.rbegin(); n != unknown.rend(); ++n) {
-      if (const auto own = read_kind(tree_.nodes[*n].name)) kind = own;
-      kinds_[*n] = kind;
+    for (const int n : unknown | std::views::reverse) {
+      if (const auto own = read_kind(tree_.nodes[n].name)) kind = own;
+      kinds_[n] = kind;
     }
     return kind;
   }
