@@ -68,7 +68,7 @@ void Console::warn(const std::string& line) {
 }
 
 void Console::progress(const Advance& now) {
-  // Where things are counted, stages are too short to follow each.
+  // A tile or a combination passes its stages too fast to show each of them.
   const bool begins = now.all > 0 ? !resumed_ : stage_ != now.stage;
   if (now.all > 0 && begins) resumed_ = now.finished, resumed_at_ = Clock::now();
   if (bar_ && (begins || Clock::now() - drawn_ >= kRedraw)) draw(now);

@@ -21,7 +21,7 @@ struct BrickList {
   std::vector<std::uint32_t> kernels;
 
   std::size_t size() const { return origins.size(); }
-  /// @throws Error usage where the lists outgrow 31 bits, as append does.
+  /// @throws Error usage where the lists outgrow 32 bits, as append does.
   void add(Coord origin, std::span<const std::uint32_t> near) {
     make_room(near.size());
     origins.push_back(origin);
@@ -38,7 +38,7 @@ struct BrickList {
 
  private:
   void make_room(std::size_t more) const {
-    if (kernels.size() + more > std::numeric_limits<std::int32_t>::max()) {
+    if (kernels.size() + more > std::numeric_limits<std::uint32_t>::max()) {
       throw Error(ErrorCode::usage, "too many kernels reach one place",
                   "Lower --radius-max, --leaf-scale or --resolution.");
     }

@@ -27,7 +27,7 @@ class Destinations {
   std::map<std::filesystem::path, std::filesystem::path> names_;  ///< by destination
 };
 
-/// @throws Error usage, always: the file has no extension, or `extension`, which says nothing.
+/// @throws Error usage, always: the file has no extension, or `extension` is unknown.
 [[noreturn]] void refuse_extension(const std::filesystem::path& file, const std::string& extension,
                                    const std::string& remedy);
 

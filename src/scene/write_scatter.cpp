@@ -69,7 +69,7 @@ Bytes read_picture(const fs::path& picture) try {
   fail_at(picture, std::string("cannot be read: ") + error.what());
 }
 
-/// Heights interpolated between the pixels of a picture whose corners are those of the area.
+/// Heights, interpolated between the pixels of a picture that covers the area.
 class HeightField {
  public:
   /// @throws Error input: the picture cannot be read.

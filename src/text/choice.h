@@ -19,7 +19,7 @@ std::size_t choice(std::string_view flag, std::string_view text,
 std::string_view nearest(std::string_view text, std::span<const std::string_view> valid);
 
 /// The words with `separator` between them; empty ones are left out.
-/// @param word what of each is its word.
+/// @param word gives the word of an item.
 template <class Each, class Word = std::identity>
 std::string joined(const Each& all, std::string_view separator, Word word = {}) {
   std::string text;

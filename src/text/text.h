@@ -19,7 +19,7 @@ std::u32string decode_utf8(std::string_view text);
 
 void append_utf8(char32_t character, std::string& text);
 
-/// With a to z for A to Z.
+/// The text with a to z in place of A to Z; other letters stay.
 std::string in_lower_case(std::string text);
 
 /// Text from a file made fit for a one-line message: control characters replaced, long text cut.

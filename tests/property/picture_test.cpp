@@ -80,7 +80,7 @@ void expect_direct_as_mesh(const std::filesystem::path& file, Style style) {
   const auto tree = shared_tree(file);
   Options options;
   options.style = style;
-  // Where radii are small, the mesh needs finer voxels to come as close to the density.
+  // Styles with small radii need finer voxels before their mesh is as close to the density.
   options.preset = style == Style::painterly ? Preset::standard : Preset::fine;
   PictureOptions picture;
   picture.width = picture.height = 640;
