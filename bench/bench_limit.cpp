@@ -94,8 +94,8 @@ std::map<std::string, double> seconds_by_stage(const LeafSet& leaves, const Opti
       for (const auto& [kernel, s] : take_kernel_seconds()) seconds[current] += s;
       current = stage;
     };
-    extract(leaves, options, device, [&](std::string_view stage, double) {
-      if (stage != current) enter(stage);
+    extract(leaves, options, device, [&](const Advance& now) {
+      if (now.stage != current) enter(now.stage);
     });
     enter("");
     if (round == 0) continue;

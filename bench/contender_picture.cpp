@@ -50,7 +50,7 @@ Json run(Scene& scene) {
         tree_subject(scene.tree, scene.leaves, scene.options, scene.surfacing, scene.device));
     rendering = artist.draw(*subject, scene.picture);
   });
-  Json stages = stages_of(subject->report().seconds);
+  Json stages = stages_of(subject->report()->seconds);
   const Json drawn = stages_of(rendering.seconds);
   stages["scene"] = total - sum_of(stages) - sum_of(drawn);  // wood, Embree, leaf cards
   stages.update(drawn);

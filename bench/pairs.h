@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <span>
 
-#include "leafhull/shape.h"
+#include "density/field.h"
 
 namespace leafhull::bench {
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Checks that every source and header of src/ and include/ compiles alone and uses everything that it
-defines for itself; a unity build does not show that. The arguments are a folder where CMake has
+"""Checks that every source and header of src/, include/ and bench/ compiles alone and uses everything
+that it defines for itself; a unity build does not show that. The arguments are a folder where CMake has
 written compile_commands.json for a build without unity files, and how many files to check at a time."""
 
 import concurrent.futures
@@ -13,6 +13,8 @@ import subprocess
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
+# Where the names of headers in #include lines start.
+FOLDERS = {ROOT / "include": ROOT / "include", ROOT / "src": ROOT / "src", ROOT / "bench": ROOT}
 INCLUDE = re.compile(r'^#include [<"]([^>"]+)[>"]', re.MULTILINE)
 CHECK = ("-fsyntax-only", "-Wno-everything", "-Wunused", "-Werror")
 
@@ -23,22 +25,26 @@ def flags_of(entry):
     return [word for word in words[:output] + words[output + 2 :] if word not in ("-c", entry["file"])]
 
 
+def room_of(file):
+    top, *below = file.relative_to(ROOT).parts
+    return below[0] if top == "src" else top
+
+
 def checks(build):
     """Pairs of a file's name and the command that compiles it."""
     database = json.loads((build / "compile_commands.json").read_text())
     sources = {pathlib.Path(e["file"]): flags_of(e) for e in database}
-    sources = {file: flags for file, flags in sources.items() if ROOT / "src" in file.parents}
+    sources = {file: flags for file, flags in sources.items() if set(FOLDERS) & set(file.parents)}
     rooms, seen = {}, set()
     for file, flags in sources.items():
-        rooms.setdefault(file.relative_to(ROOT / "src").parts[0], flags)
+        rooms.setdefault(room_of(file), flags)
         # The header that a source includes first compiles alone there.
         seen.update(INCLUDE.findall(file.read_text(encoding="utf-8"))[:1])
         yield file, ["clang++-16", *flags, *CHECK, str(file)]
-    for folder in ("include", "src"):
-        for header in sorted((ROOT / folder).rglob("*.h")):
-            name = header.relative_to(ROOT / folder)
-            if name.as_posix() not in seen:
-                flags = rooms.get(name.parts[0], next(iter(rooms.values())))
+    for folder, included_from in FOLDERS.items():
+        for header in sorted(folder.rglob("*.h")):
+            if header.relative_to(included_from).as_posix() not in seen:
+                flags = rooms.get(room_of(header), next(iter(rooms.values())))
                 only_it = ("-include", str(header), "-x", "c++", "/dev/null")
                 yield header, ["clang++-16", *flags, *CHECK, *only_it]
 
