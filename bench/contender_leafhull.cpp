@@ -48,7 +48,8 @@ double seconds_of_isotropic_field(const LeafSet& leaves, const Report& report, D
 
 Json run(const LeafSet& leaves, const Options& options, Device& device) {
   Shape shape;
-  const double total = seconds_of([&] { shape = extract(leaves, options, device); });
+  const double total =
+      seconds_of([&] { shape = extract(leaves, options, device, {}, Detail::shape); });
   const Report& report = shape.report;
   Json stages;
   for (const StageTime& s : report.seconds) stages[s.stage] = s.seconds;
@@ -88,7 +89,7 @@ int main(int argc, char** argv) {
   CLI::App app("leafhull, warm.");
   auto method = leafhull::Method::controlled;
   leafhull::bench::add_method(app, method);
-  std::string mesher = "vdb";
+  std::string mesher = "bricks";
   app.add_option("--mesher", mesher)->check(CLI::IsMember({"vdb", "bricks"}));
   return leafhull::bench::serve(app, argc, argv, [&](const auto& c, int threads) {
     return leafhull::bench::prepare(

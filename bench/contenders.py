@@ -14,7 +14,7 @@ SCRIPTS = ROOT / "bench"
 
 METHODS = ("isotropic", "controlled")
 OURS = tuple(f"leafhull {method}" for method in METHODS)
-BRICKS = "leafhull isotropic, --mesher bricks"
+BY_VDB = "leafhull isotropic, --mesher vdb"
 PUBLISHED = tuple(f"published {method}" for method in METHODS)
 LITERAL = "published controlled, literally"
 SPHERES = "OpenVDB rasterizeSmoothSpheres"
@@ -62,7 +62,7 @@ BLENDER = [
 
 COMMANDS = {
     **{f"leafhull {m}": program("contender_leafhull", "--method", m) for m in METHODS},
-    BRICKS: program("contender_leafhull", "--method", "isotropic", "--mesher", "bricks"),
+    BY_VDB: program("contender_leafhull", "--method", "isotropic", "--mesher", "vdb"),
     **{f"published {m}": program("contender_published", "--method", m) for m in METHODS},
     **{
         threaded(m, count): program("contender_leafhull", "--method", m, "--threads", str(count))

@@ -95,7 +95,7 @@ def entrants(case: Case, names: tuple[str, ...]) -> list[Entrant]:
 
 def contenders_of(tree: str, resolution: int, style: str) -> tuple[str, ...]:
     """The nearest everywhere, the other peers at fewer sizes: all of it is to take half an hour."""
-    names = [*who.OURS, who.BRICKS, who.SPHERES, *who.PUBLISHED]
+    names = [*who.OURS, who.BY_VDB, who.SPHERES, *who.PUBLISHED]
     if (tree, resolution) == ("aspen-52648", 32):
         names.append(who.LITERAL)
     if resolution == 128 or style == "painterly":
@@ -133,7 +133,7 @@ def heats() -> Iterator[list[Entrant]]:
     yield [e for count in SERIES for e in entrants(series_case(count), who.OURS)]
     yield entrants(picture_case("birch"), tuple(who.PICTURES))
     for tree in CROWNS:
-        yield entrants(painterly(tree), (*who.OURS, who.BRICKS, who.SPHERES))
+        yield entrants(painterly(tree), (*who.OURS, who.BY_VDB, who.SPHERES))
     for tree in TREES:
         for style in STYLES:
             for resolution in RESOLUTIONS:

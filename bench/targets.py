@@ -54,12 +54,12 @@ def over(results: Results, peer: str, part: str, trees: tuple[str, ...]) -> Valu
 
 
 def whole_over(results: Results, peer: str, trees: tuple[str, ...]) -> Values:
-    """With OpenVDB's mesher and with our own."""
-    bricks = {
-        f"{tree}, `--mesher bricks`": results.ratio(painterly(tree), peer, who.BRICKS, "total")
+    """With our mesher and with OpenVDB's."""
+    by_vdb = {
+        f"{tree}, `--mesher vdb`": results.ratio(painterly(tree), peer, who.BY_VDB, "total")
         for tree in trees
     }
-    return {**over(results, peer, "total", trees), **bricks}
+    return {**over(results, peer, "total", trees), **by_vdb}
 
 
 def over_published(results: Results) -> Values:

@@ -68,8 +68,8 @@ struct Options {
   std::optional<double> voxel_size;  ///< model units
   bool dense = false;
   bool snap = true;
-  Mesher mesher = Mesher::vdb;
-  double adaptivity = 0;  ///< only for Mesher::vdb
+  std::optional<Mesher> mesher;  ///< both give the same vertices and faces, in other orders
+  double adaptivity = 0;         ///< only for Mesher::vdb
 
   ReadOptions read_options() const { return {up, allow_outside}; }
   LeafOptions leaf_options() const {
@@ -102,7 +102,7 @@ LEAFHULL_API Style style_named(std::string_view name);
 LEAFHULL_API int resolution_of(Preset preset);
 
 /// `options`, checked, with the style's values where nothing was asked for. Afterwards `method`,
-/// `flatness`, `points`, `point_spacing`, `min_component`, `hollows` and, unless a dilation is,
+/// `flatness`, `points`, `point_spacing`, `min_component`, `hollows`, `mesher` and, unless a dilation is,
 /// `radius_max` are set; so are exactly one of the three thresholds and the erosion, a deviation or
 /// a percentage for each end of a band, and `resolution` or `voxel_size`.
 /// @throws Error usage: a value out of range, or two options that contradict each other.
@@ -122,9 +122,9 @@ inline void check_value(const OptionLine&, const Srgb&) {}
 using OptionRow =
     RowOver<Options, bool, int, double, std::optional<int>, std::optional<double>,
             std::optional<Up>, Style, std::optional<Method>, RadiusUnit, std::optional<PointSource>,
-            Spread, DensitySource, std::optional<Hollows>, Mesher, std::optional<Preset>,
-            std::vector<std::string>, std::optional<TextureEllipse>, std::optional<LeafColour>,
-            std::optional<Srgb>>;
+            Spread, DensitySource, std::optional<Hollows>, std::optional<Mesher>,
+            std::optional<Preset>, std::vector<std::string>, std::optional<TextureEllipse>,
+            std::optional<LeafColour>, std::optional<Srgb>>;
 
 LEAFHULL_API std::span<const OptionRow> option_table();
 

@@ -93,12 +93,19 @@ struct Shape {
   Report report;
 };
 
+/// How much an extraction computes.
+enum class Detail {
+  shape,   ///< the mesh, the field and the kernels; of N at the leaves only what these depend on
+  report,  ///< and what only a report tells: the density at the leaves and the metrics
+};
+
 /// The abstract shape of a tree's leaves: the stages of Figure 8, one after the other. SPEC: 2
-/// to 6.
+/// to 6. With Detail::shape the report's `density`, `covered` and `metrics` may be zero, and
+/// `isotropic_density` may be empty.
 /// @throws Error usage: options, or a resolution that does not fit in memory; input: no leaves, or
 ///         a crown without extent; device: a kernel that does not build (with its log) or run;
 ///         empty: no sample reaches the threshold.
 LEAFHULL_API Shape extract(const LeafSet& leaves, const Options& options, Device& device,
-                           const Progress& progress = {});
+                           const Progress& progress = {}, Detail detail = Detail::report);
 
 }  // namespace leafhull

@@ -66,6 +66,11 @@ void say_summary(Console& console, const Shape& shape, const OutputFiles& files,
               " at T = " + number(report.threshold, 4) + " in " + seconds(elapsed) + ": " + where);
 }
 
+/// Kernels are written with N_iso, which a shape alone may not need.
+Detail detail_of(const OutputFiles& files) {
+  return files.report || files.kernels ? Detail::report : Detail::shape;
+}
+
 void say_details(Console& console, const Report& report) {
   const Counts& counts = report.counts;
   console.detail("device      " + report.device);
@@ -77,9 +82,6 @@ void say_details(Console& console, const Report& report) {
                  " model units; R_max " + number(report.radius_max_model, 4));
   console.detail("evaluated   " + count(counts.evaluated_voxels) + " voxels, " +
                  count(counts.evaluated_pairs) + " pairs");
-  console.detail("off-site    " + count(report.metrics.off_site_exact) + " exact, " +
-                 count(report.metrics.off_site_sampled) + " sampled; dilated " +
-                 count(report.metrics.dilated_voxels) + " voxels");
   console.detail("memory      " + count(report.peak_memory_bytes >> 20) + " MiB at most");
 }
 
@@ -108,7 +110,8 @@ void run_extract(const Arguments& arguments) {
 
   context.open_device(options.falloff);
   const LeafSet leaves = context.read_leaves(options.leaf_options());
-  Shape shape = extract(leaves, options, context.device(), context.progress());
+  Shape shape =
+      extract(leaves, options, context.device(), context.progress(), detail_of(arguments.files));
   Report& report = shape.report;
   context.warn(report.warnings);
   context.warn(rounding_warnings(plan, shape));

@@ -139,8 +139,8 @@ std::vector<Kernel> controlled_kernels(std::span<const LeafPoint> leaves,
   std::vector<Kernel> kernels;
   kernels.reserve(leaves.size());
   for (std::size_t j = 0; j < leaves.size(); ++j) {
-    kernels.push_back(
-        controlled_kernel(leaves[j], isotropic_density[j], statistics, radius_max, options));
+    const float density = options.method == Method::controlled ? isotropic_density[j] : 0;
+    kernels.push_back(controlled_kernel(leaves[j], density, statistics, radius_max, options));
   }
   return kernels;
 }

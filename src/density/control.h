@@ -56,7 +56,7 @@ std::vector<Kernel> isotropic_kernels(std::span<const LeafPoint> leaves, double 
 
 /// The kernels of the chosen method. Their radii are R_max, the leaf's own, or between the two by
 /// the density at each leaf point; none exceeds R_max. `isotropic_density` has one value per leaf
-/// point; `radius_max` is in model units. Source: Eqs. (7), (8).
+/// point; only Method::controlled reads it. `radius_max` is in model units. Source: Eqs. (7), (8).
 std::vector<Kernel> controlled_kernels(std::span<const LeafPoint> leaves,
                                        std::span<const float> isotropic_density,
                                        const DensityStatistics& statistics, double radius_max,

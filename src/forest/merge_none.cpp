@@ -20,7 +20,7 @@ constexpr const char* kFile = "forest.glb";
 ModelShape shape_of(const SceneModel& model, const LeafSet& leaves, const Options& options,
                     Device& device, ForestSummary& summary) {
   try {
-    Shape shape = extract(leaves, options, device);
+    Shape shape = extract(leaves, options, device, {}, Detail::shape);
     summary.mesh_vertices += shape.mesh.positions.size();
     summary.mesh_triangles += shape.mesh.triangles.size();
     return {model.name, std::move(shape.mesh)};

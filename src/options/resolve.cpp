@@ -91,9 +91,9 @@ void check_contradictions(const Options& options) {
     refuse_option("--preset, --resolution and --voxel-size contradict each other",
                   "Give one of the three.");
   }
-  if (options.adaptivity > 0 && options.mesher != Mesher::vdb) {
+  if (options.adaptivity > 0 && options.mesher == Mesher::bricks) {
     refuse_option("--adaptivity " + shortest(options.adaptivity) + " does not apply to --mesher " +
-                      std::string(name(options.mesher)),
+                      std::string(name(*options.mesher)),
                   "Give --mesher vdb or leave out one of the two.");
   }
   const auto once = [](const auto& value, const auto& percent, const std::string& flag) {
@@ -208,6 +208,7 @@ Options resolve(Options options) {
   if (!options.hollows) {
     options.hollows = options.points == PointSource::area ? Hollows::fill : Hollows::keep;
   }
+  if (!options.mesher) options.mesher = options.adaptivity > 0 ? Mesher::vdb : Mesher::bricks;
   if (!options.threshold && !options.threshold_percent && !options.coverage && !options.erosion) {
     options.threshold = style.threshold;
     options.coverage = style.coverage;

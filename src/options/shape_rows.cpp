@@ -105,7 +105,9 @@ std::span<const OptionRow> option_table() {
       Row("Resolution", "snap", &Options::snap, "leaves the vertices where the lattice puts them",
           {.default_value = "moved onto N = T"}),
       Row("Resolution", "mesher", &Options::mesher,
-          "OpenVDB's volume-to-mesh, or leafhull's own over bricks of samples, which is faster"),
+          "leafhull's own mesher over bricks of samples, or OpenVDB's volume-to-mesh, which is "
+          "slower",
+          {.default_value = "bricks, vdb with --adaptivity"}),
       Row("Resolution", "adaptivity", &Options::adaptivity, {0, 1},
           "merges triangles where the surface is flat, most at 1; only for --mesher vdb"),
   };

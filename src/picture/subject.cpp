@@ -146,7 +146,7 @@ Subject tree_subject(std::shared_ptr<const TreeModel> tree, const LeafSet& leave
     direct = std::make_shared<const DirectSurface>(leaves, options, device, progress);
     parts->report = direct->report();
   } else {
-    Shape shape = extract(leaves, options, device, progress);
+    Shape shape = extract(leaves, options, device, progress, Detail::shape);
     parts->mesh = std::move(shape.mesh);
     parts->report = std::move(shape.report);
   }

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "leafhull/error.h"
+#include "pipeline/threshold.h"
 #include "text/numbers.h"
 
 namespace leafhull {
@@ -15,8 +16,6 @@ constexpr double kCoverageMissed = 0.025;
 
 void warn_of_points(const LeafSet& leaves, const Prepared& prepared, Report& report) {
   const Options& options = prepared.options;
-  const std::vector<float>& there = *prepared.there;
-  const std::vector<bool>& in_solid = prepared.points->in_solid;
   if (options.points == PointSource::vertices &&
       leaves.mean_radius_major > report.radius_max_model) {
     report.warnings.push_back(
@@ -25,6 +24,8 @@ void warn_of_points(const LeafSet& leaves, const Prepared& prepared, Report& rep
         ": kernels at their vertices leave their middle empty (--points area does not)");
   }
   if (!options.coverage) return;
+  const std::vector<float>& there = *prepared.there;
+  const std::vector<bool>& in_solid = prepared.points->in_solid;
   // N is summed in floats: densities this near to T may end up on either side on the lattice.
   const double above = report.threshold * (1 + 1e-5);
   const auto surely = std::count_if(there.begin(), there.end(),
@@ -58,11 +59,6 @@ void warn_of_pieces(std::uint64_t pieces, Report& report) {
 
 }  // namespace
 
-std::uint64_t off_site(const Prepared& prepared) {
-  return static_cast<std::uint64_t>(std::ranges::count_if(
-      *prepared.there, [&](float n) { return static_cast<double>(n) < prepared.threshold; }));
-}
-
 Report describe(const Options& resolved, const Grid& grid) {
   Report report;
   report.options = resolved;
@@ -86,9 +82,7 @@ Report describe(const Run& run, const Prepared& prepared) {
   report.counts.leaf_points = prepared.points->points.size();
   report.counts.dropped_leaves = leaves.dropped_leaves;
   report.counts.split_components = leaves.split_components;
-  report.metrics.off_site_exact = off_site(prepared);
-  report.covered = 1 - static_cast<double>(report.metrics.off_site_exact) /
-                           static_cast<double>(prepared.there->size());
+  if (prepared.there) report.covered = 1 - share_below(*prepared.there, prepared.threshold);
   warn_of_points(leaves, prepared, report);
   return report;
 }
@@ -106,9 +100,9 @@ void describe_mesh(const Mesh& mesh, const Sampled& sampled, Report& report) {
   report.counts.evaluated_pairs = sampled.pairs;
 }
 
-void refuse_empty(const Prepared& prepared, const Field& field) {
+void refuse_empty(const Prepared& prepared, std::span<const float> there, const Field& field) {
   const Options& options = prepared.options;
-  const float at_leaves = std::ranges::max(*prepared.there);
+  const float at_leaves = std::ranges::max(there);
   const auto highest = static_cast<double>(std::max(field.highest(), at_leaves));
   const char* lower = options.threshold           ? "Lower --threshold"
                       : options.threshold_percent ? "Lower --threshold-percent"

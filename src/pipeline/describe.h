@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdint>
+#include <span>
 
 #include "density/field.h"
 #include "leafhull/shape.h"
@@ -24,10 +24,9 @@ void describe_pieces(const Pieces& pieces, Report& report);
 /// Adds the counts of a mesh and of the field that it comes from.
 void describe_mesh(const Mesh& mesh, const Sampled& sampled, Report& report);
 
-/// The number of places on the leaves where N, summed there, is below T.
-std::uint64_t off_site(const Prepared& prepared);
-
+/// `there` is N at the places on the leaves.
 /// @throws Error empty, always: it says why the surface is empty.
-[[noreturn]] void refuse_empty(const Prepared& prepared, const Field& field);
+[[noreturn]] void refuse_empty(const Prepared& prepared, std::span<const float> there,
+                               const Field& field);
 
 }  // namespace leafhull

@@ -34,10 +34,11 @@ DirectSurface::DirectSurface(const LeafSet& leaves, const Options& options, Devi
     : impl_(std::make_unique<Impl>()) {
   const ThreadLimit limit(device.threads());
   Stopwatch watch(progress);
-  const Run run{leaves, device, watch};
+  const Run run{leaves, device, watch, Detail::shape};
   Stages stages(run);
   Options resolved = resolve(options);
   resolved.adaptivity = 0;  // it concerns meshes only, and would widen the band of samples
+  resolved.mesher = Mesher::bricks;
   Sliders sliders(run, stages, resolved);
 
   Prepared prepared = sliders.prepare();
@@ -45,7 +46,7 @@ DirectSurface::DirectSurface(const LeafSet& leaves, const Options& options, Devi
   Sampled sampled;
   constexpr auto kKeep = DensityFunction::Lists::keep;
   if (resolved.erosion) {
-    SampledSurface surface = sliders.surface(prepared, Mesher::bricks, kKeep);
+    SampledSurface surface = sliders.surface(prepared, kKeep);
     sampled = std::move(surface.sampled);
     pieces = std::move(surface.pieces);
     pieces->polygons = {};
@@ -53,7 +54,9 @@ DirectSurface::DirectSurface(const LeafSet& leaves, const Options& options, Devi
     sampled = sample(run, prepared, {prepared.threshold}, kKeep);
     sampled.field = without_hollows(run, prepared, std::move(sampled.field));
   }
-  if (!reaches(sampled.field)) refuse_empty(prepared, sampled.field);
+  if (!reaches(sampled.field)) {
+    refuse_empty(prepared, *stages.there(prepared), sampled.field);
+  }
 
   Impl& d = *impl_;
   d.report = describe(run, prepared);

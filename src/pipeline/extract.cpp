@@ -8,17 +8,19 @@
 
 namespace leafhull {
 
-Shape extract(const LeafSet& leaves, const Options& asked, Device& device,
-              const Progress& progress) {
+Shape extract(const LeafSet& leaves, const Options& asked, Device& device, const Progress& progress,
+              Detail detail) {
   const ThreadLimit limit(device.threads());
   Stopwatch watch(progress);
-  const Run run{leaves, device, watch};
+  const Run run{leaves, device, watch, detail};
   Stages stages(run);
   Sliders sliders(run, stages, resolve(asked));
 
   Prepared prepared = sliders.prepare();
-  auto [sampled, pieces] = sliders.surface(prepared, prepared.options.mesher);
-  if (pieces.polygons.points.empty()) refuse_empty(prepared, sampled.field);
+  auto [sampled, pieces] = sliders.surface(prepared);
+  if (pieces.polygons.points.empty()) {
+    refuse_empty(prepared, *stages.there(prepared), sampled.field);
+  }
 
   Shape shape;
   shape.report = describe(run, prepared);
@@ -29,12 +31,17 @@ Shape extract(const LeafSet& leaves, const Options& asked, Device& device,
   shape.mesh.colour = leaves.colour;
   sampled.density.reset();
 
-  shape.report.metrics = measure(run, stages, prepared, sampled.field, pieces.dropped_cells);
+  if (detail == Detail::report) {
+    shape.report.metrics = measure(run, stages, prepared, sampled.field, pieces.dropped_cells);
+  }
   describe_mesh(shape.mesh, sampled, shape.report);
   shape.report.seconds = watch.finish();
   stages.forget();
+  prepared.there.reset();  // may be N_iso itself
   shape.kernels = taken(std::move(prepared.kernels));
-  shape.isotropic_density = taken(std::move(prepared.isotropic_density));
+  if (prepared.isotropic_density) {
+    shape.isotropic_density = taken(std::move(prepared.isotropic_density));
+  }
   shape.field = std::make_shared<const Field>(std::move(sampled.field));
   return shape;
 }

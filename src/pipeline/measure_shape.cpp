@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pipeline/measure_shape.h"
 
+#include <algorithm>
 #include <utility>
 
-#include "pipeline/describe.h"
 #include "pipeline/evaluate.h"
 #include "pipeline/stages.h"
 #include "surface/hollows.h"
@@ -53,7 +53,8 @@ Metrics measure(const Run& run, Stages& stages, const Prepared& prepared, const 
                 std::span<const Coord> dropped) {
   run.watch.start("metrics");
   Metrics metrics = metrics_of(run.leaves, prepared, field);
-  metrics.off_site_exact = off_site(prepared);
+  metrics.off_site_exact = static_cast<std::uint64_t>(std::ranges::count_if(
+      *prepared.there, [&](float n) { return static_cast<double>(n) < prepared.threshold; }));
   const bool is_counted = prepared.grid.voxel_size == dilation_voxel(run.leaves, prepared.grid);
   metrics.dilation = is_counted ? dilated_share(metrics) : stages.dilation(prepared);
   metrics.erosion = erosion_of(prepared, field, dropped);

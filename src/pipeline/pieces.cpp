@@ -8,12 +8,12 @@
 
 namespace leafhull {
 
-Pieces polygonise(const Run& run, const Field& field, const Options& resolved, Mesher mesher) {
+Pieces polygonise(const Run& run, const Field& field, const Options& resolved) {
   run.watch.start("polygonise");
   const double adaptivity = resolved.adaptivity;
   Pieces pieces;
-  pieces.polygons = mesher == Mesher::bricks && adaptivity == 0 ? mesh_bricks(field)
-                                                                : polygonise(field, adaptivity);
+  pieces.polygons =
+      resolved.mesher == Mesher::bricks ? mesh_bricks(field) : polygonise(field, adaptivity);
   ComponentCount components = drop_small_components(pieces.polygons, *resolved.min_component);
   pieces.kept = components.kept;
   pieces.dropped = components.dropped;

@@ -16,8 +16,6 @@ struct Pieces {
   std::vector<Coord> dropped_cells;  ///< as in ComponentCount
 };
 
-/// `mesher` applies to surfaces without adaptivity; both meshers give the same vertices and quads
-/// in different orders.
-Pieces polygonise(const Run& run, const Field& field, const Options& resolved, Mesher mesher);
+Pieces polygonise(const Run& run, const Field& field, const Options& resolved);
 
 }  // namespace leafhull

@@ -19,11 +19,12 @@ struct Prepared {
   Grid grid{};
   FieldOptions field{};  ///< the options of its stages, and those for sampling
   std::shared_ptr<LeafPoints> points{};
-  std::shared_ptr<const SpatialHash> hash{};                ///< of the leaf points
-  std::shared_ptr<std::vector<float>> isotropic_density{};  ///< N_iso, one per leaf point
-  DensityStatistics statistics{};
+  std::shared_ptr<const SpatialHash> hash{};  ///< of the leaf points
+  std::shared_ptr<std::vector<float>>
+      isotropic_density{};                         ///< N_iso, one per leaf point, if asked for
+  DensityStatistics statistics{};                  ///< of N_iso
   std::shared_ptr<std::vector<Kernel>> kernels{};  ///< one per leaf point
-  std::shared_ptr<std::vector<float>> there{};     ///< N at the places on the leaves
+  std::shared_ptr<std::vector<float>> there{};     ///< N at the places on the leaves, if asked for
   double threshold = 0;                            ///< T
 };
 

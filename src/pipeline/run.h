@@ -7,11 +7,13 @@
 
 namespace leafhull {
 
-/// The tree and the device that stages work with, and the stopwatch that reports their progress.
+/// The tree and the device that stages work with, the stopwatch that reports their progress, and
+/// how much they compute.
 struct Run {
   const LeafSet& leaves;
   Device& device;
   Stopwatch& watch;
+  Detail detail = Detail::report;
 };
 
 }  // namespace leafhull

@@ -101,7 +101,7 @@ class Series {
       SampledSurface surface{{without_hollows(run_, prepared, sampled.field.at(prepared.threshold)),
                               sampled.pairs, sampled.lists, sampled.density},
                              {}};
-      surface.pieces = polygonise(run_, surface.sampled.field, prepared.options, Mesher::bricks);
+      surface.pieces = polygonise(run_, surface.sampled.field, prepared.options);
       return finish(index, prepared, surface);
     });
   }
@@ -112,7 +112,7 @@ class Series {
     SampledSurface surface;
     const std::string failure = failure_of([&] {
       prepared = sliders.prepare();
-      surface = sliders.surface(prepared, Mesher::bricks);
+      surface = sliders.surface(prepared);
     });
     if (!failure.empty()) return fail(entry.index, entry.options, entry.grid, failure);
     return finish(entry.index, prepared, surface);

@@ -85,13 +85,13 @@ Prepared Sliders::solve() {
   return std::move(last.value());
 }
 
-SampledSurface Sliders::surface(Prepared& prepared, Mesher mesher, DensityFunction::Lists lists) {
+SampledSurface Sliders::surface(Prepared& prepared, DensityFunction::Lists lists) {
   constexpr int kMostRounds = 8;
   for (int round = 1;; ++round) {
     {
       SampledSurface surface{sample(run_, prepared, {prepared.threshold}, lists), {}};
       surface.sampled.field = without_hollows(run_, prepared, std::move(surface.sampled.field));
-      surface.pieces = polygonise(run_, surface.sampled.field, prepared.options, mesher);
+      surface.pieces = polygonise(run_, surface.sampled.field, prepared.options);
       if (is_eroded(prepared, surface, round == kMostRounds)) {
         if (options_.erosion) check_dilation(prepared);
         return surface;

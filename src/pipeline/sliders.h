@@ -27,7 +27,7 @@ class Sliders {
   /// The surface. If its erosion on the lattice is too far from the requested one, replaces
   /// `prepared` by one with another T and, if there is a dilation, another R_max.
   /// @throws Error usage: as sample(); no T has that erosion.
-  SampledSurface surface(Prepared& prepared, Mesher mesher,
+  SampledSurface surface(Prepared& prepared,
                          DensityFunction::Lists lists = DensityFunction::Lists::forget);
 
   /// Called by prepare() or, with an erosion, by surface(), which may still correct the dilation.

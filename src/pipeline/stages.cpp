@@ -74,28 +74,47 @@ Prepared Stages::prepare(const Options& resolved, double below) {
   watch.start("hash");
   p.hash = hash_.get(of_density.hash, [&] { return hash_of(leaves, *p.points, of_density.hash); });
 
-  watch.start("isotropic density");
-  p.isotropic_density = isotropic_density_.get(
-      of_density, [&] { return isotropic_density_of(run, *p.points, p.hash, of_density); });
+  const bool reports = run.detail == Detail::report;
+  const ThresholdOptions of_threshold = threshold_options(resolved);
+  std::span<const float> isotropic_density;
+  if (reports || of_kernels.control.method == Method::controlled || of_threshold.asks_mean()) {
+    watch.start("isotropic density");
+    p.isotropic_density = isotropic_density_.get(
+        of_density, [&] { return isotropic_density_of(run, *p.points, p.hash, of_density); });
+    isotropic_density = *p.isotropic_density;
+  }
 
   // Steps 3 to 5: p1 and p2, and from them the radii.
   watch.start("control");
-  p.statistics =
-      density_statistics(p.points->points, *p.isotropic_density, leaves.crown, of_kernels.control);
+  if (p.isotropic_density) {
+    p.statistics =
+        density_statistics(p.points->points, isotropic_density, leaves.crown, of_kernels.control);
+  }
   p.kernels = kernels_.get(of_kernels, [&] {
-    return controlled_kernels(p.points->points, *p.isotropic_density, p.statistics, radius_max,
+    return controlled_kernels(p.points->points, isotropic_density, p.statistics, radius_max,
                               of_kernels.control);
   });
 
   watch.start("threshold");
-  p.there = there_.get(of_kernels, [&] {
-    return is_isotropic_density(leaves, of_kernels)
-               ? *p.isotropic_density
-               : density_at(run, p.points->samples, *p.kernels, p.hash, of_density);
-  });
-  p.threshold = threshold_of(threshold_options(resolved), p.statistics.mean,
-                             {*p.there, p.points->in_solid}, below);
+  std::span<const float> on_leaves;
+  if (reports || of_threshold.asks_leaves()) {
+    p.there = there(p);
+    on_leaves = *p.there;
+  }
+  p.threshold =
+      threshold_of(of_threshold, p.statistics.mean, {on_leaves, p.points->in_solid}, below);
   return p;
+}
+
+std::shared_ptr<std::vector<float>> Stages::there(const Prepared& prepared) {
+  const Run& run = run_;
+  const KernelsOptions& key = prepared.field.kernels;
+  if (prepared.isotropic_density && is_isotropic_density(run.leaves, key)) {
+    return prepared.isotropic_density;
+  }
+  return there_.get(key, [&] {
+    return density_at(run, prepared.points->samples, *prepared.kernels, prepared.hash, key.density);
+  });
 }
 
 double Stages::dilation(const Prepared& prepared) {

@@ -44,9 +44,13 @@ class Stages {
   explicit Stages(const Run& run) : run_(run) {}
 
   /// Prepares the tree with options that have an R_max. For an erosion, the share `below` of the
-  /// leaves has a density below T.
+  /// leaves has a density below T. N_iso and N on the leaves are computed if kernels, T or the
+  /// run's report depend on them.
   /// @throws Error as grid_of and threshold_of do.
   Prepared prepare(const Options& resolved, double below);
+
+  /// Returns N at the places on the leaves, which is kept too.
+  std::shared_ptr<std::vector<float>> there(const Prepared& prepared);
 
   /// Returns dilation_of(), which is kept too.
   double dilation(const Prepared& prepared);

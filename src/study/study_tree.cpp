@@ -110,7 +110,7 @@ void time(ReadingStudy& study, const LeafSet& leaves, Device& device, Steps& ste
 /// The surface of a row; empty where there is none.
 Mesh surface(const LeafSet& leaves, const StudyRow& row, const Reading& reading, Device& device) {
   try {
-    return extract(leaves, options_of(row, reading), device).mesh;
+    return extract(leaves, options_of(row, reading), device, {}, Detail::shape).mesh;
   } catch (const Error& error) {
     if (error.code() != ErrorCode::empty) throw;
     return {};

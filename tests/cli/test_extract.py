@@ -117,6 +117,11 @@ class Extract(CommandTest):
             flags = (*DRAFT, "--mesher", mesher, "--threads")
             self.assert_same(self.extract(ASH, *flags, "1"), self.extract(ASH, *flags, "2"))
 
+    def test_a_report_does_not_change_the_shape(self):
+        shape = self.out / "alone.glb"
+        self.succeed("extract", ASH, *DRAFT, "-o", shape)
+        self.assertEqual(self.extract(ASH, *DRAFT)[0], shape.read_bytes())
+
     def test_dense_is_the_same(self):
         band = self.extract(ASH, *DRAFT)
         dense = self.extract(ASH, *DRAFT, "--dense")

@@ -149,7 +149,6 @@ TEST(Hollows, OfASeriesAreThoseOfEachEntry) {
   for (const double threshold : {1.0, 1.5, 2.0}) {
     for (const Hollows each : {Hollows::fill, Hollows::keep}) {
       series.push_back(hollows(each, threshold));
-      series.back().mesher = Mesher::bricks;
       series.back().snap = false;
     }
   }

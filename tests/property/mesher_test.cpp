@@ -52,6 +52,7 @@ void expect_agreement(const std::filesystem::path& tree) {
       Options options;
       options.style = style;
       options.snap = snap;
+      options.mesher = Mesher::vdb;
       const Shape vdb = extract(leaves, options, device);
       options.mesher = Mesher::bricks;
       const Shape bricks = extract(leaves, options, device);
@@ -69,11 +70,11 @@ void expect_agreement(const std::filesystem::path& tree) {
 TEST(Meshers, AgreeOnTheAsh) { expect_agreement(LEAFHULL_EXAMPLES "/ash.glb"); }
 TEST(Meshers, AgreeOnTheBirch) { expect_agreement(LEAFHULL_SHARED_TREES "/birch.glb"); }
 
-TEST(Meshers, BricksOfADenseFieldGiveTheSameMesh) {
+TEST(Meshers, OpenVdbsMakesTheSameMeshOfADenseField) {
   Device device({});
   const LeafSet leaves = find_leaves(read_tree(LEAFHULL_EXAMPLES "/ash.glb"), {});
   Options options;
-  options.mesher = Mesher::bricks;
+  options.mesher = Mesher::vdb;
   const Mesh band = extract(leaves, options, device).mesh;
   options.dense = true;
   const Mesh dense = extract(leaves, options, device).mesh;

@@ -71,7 +71,7 @@ TEST(Series, SaysOfEachEntryWhatAnExtractionSays) {
     series.push_back(thin(2));
     change(series.back());
   };
-  add([](Options& o) { o.mesher = Mesher::bricks; });
+  add([](Options& o) { o.mesher = Mesher::vdb; });
   add([](Options& o) { o.adaptivity = 0.5; });
   add([](Options& o) { o.dense = true; });
   add([](Options& o) { o.density = DensitySource::grid; });
@@ -171,7 +171,6 @@ TEST(Series, ItsMeshIsTheLatticesSurface) {
   Options options;
   options.preset = Preset::draft;
   options.snap = false;
-  options.mesher = Mesher::bricks;
   const std::vector<Options> series{options};
   const auto entries = entries_of(series);
   const Shape alone = extract(ash(), options, device());

@@ -262,9 +262,7 @@ TEST_P(Sliders, ASeriesSaysWhatAnExtractionSays) {
       return true;
     }
     EXPECT_EQ(entry.failure, "");
-    Options alone = series[index];
-    alone.mesher = Mesher::bricks;
-    const Report a = entry.report, b = extract(leaves, alone, device()).report;
+    const Report a = entry.report, b = extract(leaves, series[index], device()).report;
     EXPECT_EQ(a.threshold, b.threshold);
     EXPECT_EQ(a.radius_max_model, b.radius_max_model);
     EXPECT_EQ(a.covered, b.covered);
