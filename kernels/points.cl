@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Computes N and its gradient at scattered points, and moves mesh vertices onto the surface N = T.
 //
-// Points come in chunks of CHUNK_POINTS that share a list of kernels. On a CPU a work-item takes a
-// chunk, its lanes the points (LANES = CHUNK_POINTS); on a GPU a work-item takes one point
-// (LANES = 1). Global size: CHUNK_POINTS / LANES times the number of chunks, or more.
+// A brick's points come in groups of up to CHUNKS chunks of CHUNK_POINTS, which share the brick's
+// list of kernels. First, each kernel of the list is tested against the boxes of all chunks and
+// gets a mark in those that it reaches. Then every chunk sums its marked kernels in the order of
+// the list.
+//
+// On a CPU a work-item takes a group, its lanes the points of a chunk (LANES = CHUNK_POINTS).
+// Global size: the number of groups. On a GPU a work-group takes a group, a work-item a point
+// (LANES = 1). Global size: CHUNKS * CHUNK_POINTS times the number of groups.
 #include "density.clh"
 
 #ifndef CHUNK_POINTS
@@ -14,23 +19,133 @@
 #endif
 #include "lanes.clh"
 
-#if LANES == 8
-#define LOAD(p) vload8(get_global_id(0), p)
-#define STORE(v, p) vstore8(v, get_global_id(0), p)
-#elif LANES == 16
-#define LOAD(p) vload16(get_global_id(0), p)
-#define STORE(v, p) vstore16(v, get_global_id(0), p)
-#else
-#define LOAD(p) ((p)[get_global_id(0)])
-#define STORE(v, p) ((p)[get_global_id(0)] = (v))
+#ifndef CHUNKS
+#define CHUNKS 8
 #endif
-#define CHUNK (get_global_id(0) * LANES / CHUNK_POINTS)
+#if CHUNKS != 8
+#error "a vector holds the boxes of 8 chunks"
+#endif
 
-// The kernels that may reach a chunk's points, and its origin: `PointChunk` of the host.
+// The points of a group: `PointGroup` of the host.
 typedef struct {
-  int origin[3];    // points are offsets from there, voxels
-  uint first, end;  // in the list
-} Chunk;
+  int origin[3];       // points are offsets from there, voxels
+  uint first, end;     // the kernels that may reach them, in the list
+  uint chunk, chunks;  // the first of its chunks, and their number
+  uint entry;          // where its list is in the scratch space of a launch, a multiple of RUN
+} Group;
+
+// Loops over the chunks that a work-item takes; its points are at LOAD and STORE.
+#if LANES == 1
+#define GROUP (get_group_id(0))
+#define FOR_EACH_CHUNK(c) \
+  for (uint c = (uint)get_local_id(0) / CHUNK_POINTS; c < group->chunks; c += CHUNKS)
+#define POINT(c) ((group->chunk + c) * CHUNK_POINTS + get_local_id(0) % CHUNK_POINTS)
+#define LOAD(c, p) ((p)[POINT(c)])
+#define STORE(v, c, p) ((p)[POINT(c)] = (v))
+#else
+#define GROUP (get_global_id(0))
+#define FOR_EACH_CHUNK(c) for (uint c = 0; c < group->chunks; ++c)
+#if LANES == 8
+#define LOAD(c, p) vload8(group->chunk + c, p)
+#define STORE(v, c, p) vstore8(v, group->chunk + c, p)
+#else
+#define LOAD(c, p) vload16(group->chunk + c, p)
+#define STORE(v, c, p) vstore16(v, group->chunk + c, p)
+#endif
+#endif
+
+// Marks are taken in runs of 32 kernels: for each chunk a bit per kernel, the highest for the
+// first.
+#define RUN 32
+#define FIRST_OF_RUN 0x80000000u
+#define XI_SLACK 1.0001f  // the rounding of xi, a share of the top
+
+// A GPU's work-item marks one chunk at a time, a CPU's all of them.
+#if LANES == 1
+typedef float Boxes;
+typedef uint Marks;
+#define WHERE(c) ((uint)(-(c)))
+#else
+typedef float8 Boxes;
+typedef uint8 Marks;
+#define WHERE(c) as_uint8(c)
+#endif
+
+// Centres and half the extents of the boxes around the points of chunks.
+typedef struct {
+  Boxes x, y, z, half_x, half_y, half_z;
+} ChunkBoxes;
+
+// A kernel of a group's list, its centre counted from the group's origin.
+typedef struct {
+  float x, y, z;
+  float xx, xy, xz, yy, yz, zz;
+  float top;
+} NearKernel;
+
+// Copies a kernel by vectors; loops over its members become slow gathers.
+static void fetch(global const Kernel* k, int4 origin, global NearKernel* near) {
+  // The fourth components are written over.
+  vstore4(convert_float4(vload4(0, k->cell) - origin) + vload4(0, k->offset), 0, &near->x);
+  vstore4(vload4(0, &k->xx), 0, &near->xx);
+  vstore3(vload3(0, &k->yz), 0, &near->yz);
+}
+
+static Marks marks_of(global const NearKernel* near, uint count, ChunkBoxes boxes) {
+  Marks marks = 0;
+  for (uint i = 0; i < count; ++i) {
+    global const NearKernel* k = near + i;
+    const Boxes dx = boxes.x - k->x, dy = boxes.y - k->y, dz = boxes.z - k->z;
+    const float xy = fabs(k->xy), xz = fabs(k->xz), yz = fabs(k->yz);
+    const Boxes mx = fabs(fma((Boxes)(k->xx), dx, fma((Boxes)(k->xy), dy, k->xz * dz)));
+    const Boxes my = fabs(fma((Boxes)(k->yy), dy, k->yz * dz));
+    const Boxes mz = fabs(k->zz * dz);
+    const Boxes ex =
+        fma((Boxes)(k->xx), boxes.half_x, fma((Boxes)(xy), boxes.half_y, xz * boxes.half_z));
+    const Boxes ey = fma((Boxes)(k->yy), boxes.half_y, yz * boxes.half_z);
+    const Boxes ez = k->zz * boxes.half_z;
+    const Boxes near_x = fmax(mx - ex, (Boxes)(0.0f));
+    const Boxes near_y = fmax(my - ey, (Boxes)(0.0f));
+    const Boxes near_z = fmax(mz - ez, (Boxes)(0.0f));
+    const Boxes least = fma(near_x, near_x, fma(near_y, near_y, near_z * near_z));
+    marks |= WHERE(least < XI_SLACK * k->top) & (FIRST_OF_RUN >> i);
+  }
+  return marks;
+}
+
+// Fetches the kernels of a group's list and marks those that reach its chunks. `boxes` has CHUNKS
+// numbers for each member of ChunkBoxes.
+static void mark(global const Kernel* kernels, global const Group* group, global const uint* list,
+                 global const float* boxes, global NearKernel* near, global uint* marks) {
+  const uint size = group->end - group->first;
+  const uint runs = (size + RUN - 1) / RUN;
+  const int4 origin = {group->origin[0], group->origin[1], group->origin[2], 0};
+#if LANES == 1
+  const uint item = (uint)get_local_id(0), items = (uint)get_local_size(0);
+  for (uint i = item; i < size; i += items) {
+    fetch(kernels + list[group->first + i], origin, near + i);
+  }
+  barrier(CLK_GLOBAL_MEM_FENCE);
+  for (uint i = item; i < runs * CHUNKS; i += items) {
+    const uint begin = i / CHUNKS * RUN;
+    global const float* b = boxes + i % CHUNKS;
+    const ChunkBoxes box = {b[0],          b[CHUNKS],     b[2 * CHUNKS],
+                            b[3 * CHUNKS], b[4 * CHUNKS], b[5 * CHUNKS]};
+    marks[i] = marks_of(near + begin, min((uint)RUN, size - begin), box);
+  }
+  barrier(CLK_GLOBAL_MEM_FENCE);
+#else
+  for (uint i = 0; i < size; ++i) {
+    fetch(kernels + list[group->first + i], origin, near + i);
+  }
+  const ChunkBoxes all = {vload8(0, boxes), vload8(1, boxes), vload8(2, boxes),
+                          vload8(3, boxes), vload8(4, boxes), vload8(5, boxes)};
+  for (uint run = 0; run < runs; ++run) {
+    const uint begin = run * RUN;
+    vstore8(marks_of(near + begin, min((uint)RUN, size - begin), all), run, marks);
+  }
+#endif
+}
 
 static Real3 scaled(Real3 v, real s) { return (Real3){v.x * s, v.y * s, v.z * s}; }
 static real square(Real3 v) { return fma(v.x, v.x, fma(v.y, v.y, v.z * v.z)); }
@@ -43,38 +158,47 @@ typedef struct {
   Real3 gradient;
 } Sample;
 
-static Sample density_at(global const Kernel* kernels, global const uint* list,
-                         global const Chunk* chunk, Real3 p) {
-  const int4 origin = {chunk->origin[0], chunk->origin[1], chunk->origin[2], 0};
+// Sums at the points of a chunk; `marks` are those of the chunk.
+static Sample density_at(global const NearKernel* near, uint size, global const uint* marks,
+                         Real3 p) {
   Sample s = {REAL(0.0f), {REAL(0.0f), REAL(0.0f), REAL(0.0f)}};
-  for (uint i = chunk->first; i < chunk->end; ++i) {
-    global const Kernel* k = kernels + list[i];
-    // The fourth components are unused.
-    const float4 centre = convert_float4(vload4(0, k->cell) - origin) + vload4(0, k->offset);
-    const real dx = p.x - centre.x, dy = p.y - centre.y, dz = p.z - centre.z;
-    const real u = fma(REAL(k->xx), dx, fma(REAL(k->xy), dy, k->xz * dz));
-    const real v = fma(REAL(k->yy), dy, k->yz * dz);
-    const real n = k->zz * dz;
-    const real w = fmax(fma(-u, u, fma(-n, n, fma(-v, v, REAL(k->top)))), REAL(0.0f));
-    s.density = ADD_POWER(s.density, w);
-    // grad D = -2 k w^(k-1) U^T (u, v, n), its constant factor last; w = 0 leaves nothing.
-    const real slope = SLOPE(w);
-    s.gradient.x = fma(slope, k->xx * u, s.gradient.x);
-    s.gradient.y = fma(slope, fma(REAL(k->xy), u, k->yy * v), s.gradient.y);
-    s.gradient.z = fma(slope, fma(REAL(k->xz), u, fma(REAL(k->yz), v, k->zz * n)), s.gradient.z);
+  for (uint begin = 0; begin < size; begin += RUN, marks += CHUNKS) {
+    for (uint marked = *marks; marked;) {
+      const uint i = clz(marked);
+      marked ^= FIRST_OF_RUN >> i;
+      global const NearKernel* k = near + begin + i;
+      const real dx = p.x - k->x, dy = p.y - k->y, dz = p.z - k->z;
+      const real u = fma(REAL(k->xx), dx, fma(REAL(k->xy), dy, k->xz * dz));
+      const real v = fma(REAL(k->yy), dy, k->yz * dz);
+      const real n = k->zz * dz;
+      const real w = fmax(fma(-u, u, fma(-n, n, fma(-v, v, REAL(k->top)))), REAL(0.0f));
+      s.density = ADD_POWER(s.density, w);
+      // grad D = -2 k w^(k-1) U^T (u, v, n), its constant factor last; w = 0 leaves nothing.
+      const real slope = SLOPE(w);
+      s.gradient.x = fma(slope, k->xx * u, s.gradient.x);
+      s.gradient.y = fma(slope, fma(REAL(k->xy), u, k->yy * v), s.gradient.y);
+      s.gradient.z = fma(slope, fma(REAL(k->xz), u, fma(REAL(k->yz), v, k->zz * n)), s.gradient.z);
+    }
   }
   s.gradient = scaled(s.gradient, REAL(-2.0f * FALLOFF));
   return s;
 }
 
+// N at the points of each group.
 kernel void density_points(global const Kernel* restrict kernels,
-                           global const Chunk* restrict chunks, uint count,
-                           global const uint* restrict list, global const float* restrict xs,
+                           global const Group* restrict groups, global const uint* restrict list,
+                           global const float* restrict boxes, global NearKernel* restrict all_near,
+                           global uint* restrict all_marks, global const float* restrict xs,
                            global const float* restrict ys, global const float* restrict zs,
                            global float* restrict density) {
-  if (CHUNK >= count) return;
-  const Real3 p = {LOAD(xs), LOAD(ys), LOAD(zs)};
-  STORE(density_at(kernels, list, chunks + CHUNK, p).density, density);
+  global const Group* group = groups + GROUP;
+  global NearKernel* near = all_near + group->entry;
+  global uint* marks = all_marks + group->entry / RUN * CHUNKS;
+  mark(kernels, group, list, boxes + GROUP * 6 * CHUNKS, near, marks);
+  FOR_EACH_CHUNK(c) {
+    const Real3 p = {LOAD(c, xs), LOAD(c, ys), LOAD(c, zs)};
+    STORE(density_at(near, group->end - group->first, marks + c, p).density, c, density);
+  }
 }
 
 // A point this near to the surface counts as on it, voxels: |N - T| over the steepness.
@@ -127,59 +251,66 @@ static Real3 corner_of(Real3 low, int i) {
 // nearest corner of the cell on the other side of the surface. A lane that has arrived stays, so a
 // point's way does not depend on its chunk. There is a single loop because compile time grows with
 // each place that sums.
-kernel void snap_points(global const Kernel* restrict kernels, global const Chunk* restrict chunks,
-                        uint count, global const uint* restrict list, float threshold, int steps,
-                        global float* restrict xs, global float* restrict ys,
-                        global float* restrict zs, global float* restrict nxs,
-                        global float* restrict nys, global float* restrict nzs) {
-  if (CHUNK >= count) return;
-  const int corners = steps + 8, end = steps > 0 ? corners + HALVINGS : 0;
-  Real3 p = {LOAD(xs), LOAD(ys), LOAD(zs)};
-  const Real3 low = {floor(p.x), floor(p.y), floor(p.z)};
-  Vertex best = {p, p, REAL(INFINITY)};
-  truth off = REAL(0.0f) == REAL(0.0f);
-  real share = REAL(1.0f);
-  Real3 way = {REAL(0.0f), REAL(0.0f), REAL(0.0f)};  // to the corner
-  real nearest = REAL(INFINITY), before = REAL(0.0f), behind = REAL(1.0f), t = REAL(0.5f);
-  Vertex start = best;
-  for (int i = 0;; ++i) {
-    const Sample s = density_at(kernels, list, chunks + CHUNK, p);
-    const Vertex v = {p, s.gradient, s.density - threshold};
-    if (i <= steps || i > corners) {
-      const truth closer = off & (fabs(v.miss) < fabs(best.miss));
-      best = choose(best, v, closer);
-      share = select(0.5f * share, REAL(1.0f), closer);
-      if (i > corners) {
-        const truth same = (v.miss >= 0.0f) == (start.miss >= 0.0f);
-        before = select(before, t, same);
-        behind = select(t, behind, same);
+kernel void snap_points(global const Kernel* restrict kernels, global const Group* restrict groups,
+                        global const uint* restrict list, global const float* restrict boxes,
+                        global NearKernel* restrict all_near, global uint* restrict all_marks,
+                        float threshold, int steps, global float* restrict xs,
+                        global float* restrict ys, global float* restrict zs,
+                        global float* restrict nxs, global float* restrict nys,
+                        global float* restrict nzs) {
+  global const Group* group = groups + GROUP;
+  global NearKernel* near = all_near + group->entry;
+  global uint* marks = all_marks + group->entry / RUN * CHUNKS;
+  mark(kernels, group, list, boxes + GROUP * 6 * CHUNKS, near, marks);
+  FOR_EACH_CHUNK(c) {
+    const int corners = steps + 8, end = steps > 0 ? corners + HALVINGS : 0;
+    Real3 p = {LOAD(c, xs), LOAD(c, ys), LOAD(c, zs)};
+    const Real3 low = {floor(p.x), floor(p.y), floor(p.z)};
+    Vertex best = {p, p, REAL(INFINITY)};
+    truth off = REAL(0.0f) == REAL(0.0f);
+    real share = REAL(1.0f);
+    Real3 way = {REAL(0.0f), REAL(0.0f), REAL(0.0f)};  // to the corner
+    real nearest = REAL(INFINITY), before = REAL(0.0f), behind = REAL(1.0f), t = REAL(0.5f);
+    Vertex start = best;
+    for (int i = 0;; ++i) {
+      const Sample s = density_at(near, group->end - group->first, marks + c, p);
+      const Vertex v = {p, s.gradient, s.density - threshold};
+      if (i <= steps || i > corners) {
+        const truth closer = off & (fabs(v.miss) < fabs(best.miss));
+        best = choose(best, v, closer);
+        share = select(0.5f * share, REAL(1.0f), closer);
+        if (i > corners) {
+          const truth same = (v.miss >= 0.0f) == (start.miss >= 0.0f);
+          before = select(before, t, same);
+          behind = select(t, behind, same);
+        }
+        off = is_off(best);
+        if (i >= end || !ANY(off)) break;
+      } else {
+        const Real3 there = along(p, start.at, REAL(-1.0f));
+        const real distance = square(there);
+        const truth better = ((v.miss >= 0.0f) != (start.miss >= 0.0f)) & (distance < nearest);
+        nearest = select(nearest, distance, better);
+        way = choose3(way, there, better);
       }
-      off = is_off(best);
-      if (i >= end || !ANY(off)) break;
-    } else {
-      const Real3 there = along(p, start.at, REAL(-1.0f));
-      const real distance = square(there);
-      const truth better = ((v.miss >= 0.0f) != (start.miss >= 0.0f)) & (distance < nearest);
-      nearest = select(nearest, distance, better);
-      way = choose3(way, there, better);
+      if (i < steps) {
+        p = newton_step(best, low, share);
+      } else if (i < corners) {
+        if (i == steps) start = best;
+        p = corner_of(low, i - steps);
+      } else {
+        t = 0.5f * (before + behind);
+        p = along(start.at, way, t);
+      }
     }
-    if (i < steps) {
-      p = newton_step(best, low, share);
-    } else if (i < corners) {
-      if (i == steps) start = best;
-      p = corner_of(low, i - steps);
-    } else {
-      t = 0.5f * (before + behind);
-      p = along(start.at, way, t);
-    }
+    STORE(best.at.x, c, xs);
+    STORE(best.at.y, c, ys);
+    STORE(best.at.z, c, zs);
+    const real steepness = square(best.gradient);
+    const real scale = select(-rsqrt(steepness), REAL(0.0f), steepness < REAL(1e-30f));
+    const Real3 normal = scaled(best.gradient, scale);
+    STORE(normal.x, c, nxs);
+    STORE(normal.y, c, nys);
+    STORE(normal.z, c, nzs);
   }
-  STORE(best.at.x, xs);
-  STORE(best.at.y, ys);
-  STORE(best.at.z, zs);
-  const real steepness = square(best.gradient);
-  const real scale = select(-rsqrt(steepness), REAL(0.0f), steepness < REAL(1e-30f));
-  const Real3 normal = scaled(best.gradient, scale);
-  STORE(normal.x, nxs);
-  STORE(normal.y, nys);
-  STORE(normal.z, nzs);
 }

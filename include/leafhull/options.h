@@ -102,9 +102,9 @@ LEAFHULL_API Style style_named(std::string_view name);
 LEAFHULL_API int resolution_of(Preset preset);
 
 /// `options`, checked, with the style's values where nothing was asked for. Afterwards `method`,
-/// `flatness`, `points`, `point_spacing`, `min_component`, `hollows`, `mesher` and, unless a dilation is,
-/// `radius_max` are set; so are exactly one of the three thresholds and the erosion, a deviation or
-/// a percentage for each end of a band, and `resolution` or `voxel_size`.
+/// `flatness`, `points`, `point_spacing`, `min_component`, `hollows`, `mesher` and, unless a
+/// dilation is, `radius_max` are set; so are exactly one of the three thresholds and the erosion, a
+/// deviation or a percentage for each end of a band, and `resolution` or `voxel_size`.
 /// @throws Error usage: a value out of range, or two options that contradict each other.
 LEAFHULL_API Options resolve(Options options);
 

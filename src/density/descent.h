@@ -21,6 +21,9 @@ struct BrickList {
   std::vector<std::uint32_t> kernels;
 
   std::size_t size() const { return origins.size(); }
+  std::span<const std::uint32_t> list(std::size_t brick) const {
+    return std::span(kernels).subspan(first[brick], first[brick + 1] - first[brick]);
+  }
   /// @throws Error usage where the lists outgrow 32 bits, as append does.
   void add(Coord origin, std::span<const std::uint32_t> near) {
     make_room(near.size());

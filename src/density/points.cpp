@@ -4,28 +4,22 @@
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_sort.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <optional>
 #include <utility>
-
-#include "density/near_kernels.h"
-#include "leafhull/error.h"
 
 namespace leafhull {
 namespace {
 
-/// About how many points have their kernels gathered together.
-constexpr std::size_t kClusterPoints = 256;
-constexpr std::size_t kLeastChunk = 8;
-/// The size of a batch: 2 MiB of ranks, and no more chunks than one launch takes.
-constexpr std::size_t kChunkEntries = std::size_t{1} << 19;
-constexpr std::size_t kBatchClusters = (std::size_t{1} << 15) / (kClusterPoints / kLeastChunk);
-
-std::size_t chunks_of(std::size_t points, std::size_t chunk_points) {
-  return (points + chunk_points - 1) / chunk_points;
-}
+/// A batch is handed over at about 4 MiB of ranks or of points.
+constexpr std::size_t kBatchRanks = std::size_t{1} << 20;
+constexpr std::size_t kBatchPoints = std::size_t{1} << 18;
+/// A thread takes this many points or frames at once, and no more than kMostPoints of one frame.
+constexpr std::size_t kSlicePoints = std::size_t{1} << 12, kSliceFrames = 64;
+constexpr std::size_t kMostPoints = 4 * kSlicePoints;
 
 /// Consecutive points in one frame: points come in an order that keeps neighbours together.
 struct Run {
@@ -38,16 +32,15 @@ struct Run {
 
 template <class T>
 std::vector<Run> sorted_runs(std::span<const Vec3<T>> points) {
-  constexpr std::size_t kSlice = 4096;
-  std::vector<std::vector<Run>> slices((points.size() + kSlice - 1) / kSlice);
-  tbb::parallel_for(std::size_t{0}, slices.size(), [&](std::size_t slice) {
-    std::vector<Run>& runs = slices[slice];
-    const std::size_t end = std::min((slice + 1) * kSlice, points.size());
-    for (std::size_t i = slice * kSlice; i < end; ++i) {
+  constexpr std::size_t kStretch = 4096;
+  std::vector<std::vector<Run>> stretches((points.size() + kStretch - 1) / kStretch);
+  tbb::parallel_for(std::size_t{0}, stretches.size(), [&](std::size_t s) {
+    std::vector<Run>& runs = stretches[s];
+    const std::size_t end = std::min((s + 1) * kStretch, points.size());
+    for (std::size_t i = s * kStretch; i < end; ++i) {
       const Coord frame = block_origin(cell_of(Vec3d(points[i])), kFrameEdge);
       const auto point = static_cast<std::uint32_t>(i);
-      if (!runs.empty() && runs.back().frame == frame &&
-          point - runs.back().begin < kClusterPoints) {
+      if (!runs.empty() && runs.back().frame == frame) {
         runs.back().end = point + 1;
       } else {
         runs.push_back({frame, point, point + 1});
@@ -55,192 +48,310 @@ std::vector<Run> sorted_runs(std::span<const Vec3<T>> points) {
     }
   });
   std::vector<Run> all;
-  for (const auto& runs : slices) all.insert(all.end(), runs.begin(), runs.end());
+  for (const auto& runs : stretches) all.insert(all.end(), runs.begin(), runs.end());
   tbb::parallel_sort(all);
   return all;
 }
 
-/// Runs in one frame.
-struct Cluster {
-  std::span<const Run> runs;
-  std::size_t points = 0;
-};
-
-std::vector<Cluster> in_clusters(std::span<const Run> runs) {
-  std::vector<Cluster> clusters;
+/// The runs of some frames, or of a part of one with many points.
+std::vector<std::span<const Run>> in_slices(std::span<const Run> runs, std::size_t most_frames) {
+  std::vector<std::span<const Run>> slices;
   for (std::size_t begin = 0, end = 0; begin < runs.size(); begin = end) {
-    std::size_t points = 0;
-    while (end < runs.size() && runs[end].frame == runs[begin].frame) {
-      const std::size_t more = runs[end].end - runs[end].begin;
-      if (end > begin && points + more > kClusterPoints) break;
-      points += more;
-      ++end;
+    std::size_t points = 0, frames = 0;
+    for (; end < runs.size(); ++end) {
+      const bool is_new = end == begin || runs[end].frame != runs[end - 1].frame;
+      const bool is_full = points >= kSlicePoints || frames == most_frames;
+      if ((is_new && is_full) || points >= kMostPoints) break;
+      frames += is_new;
+      points += runs[end].end - runs[end].begin;
     }
-    clusters.push_back({runs.subspan(begin, end - begin), points});
+    slices.push_back(runs.subspan(begin, end - begin));
   }
-  return clusters;
+  return slices;
 }
 
-/// A point of a cluster.
+/// A point of a frame.
 struct Member {
-  Vec3f offset;  // from the frame's origin
+  Vec3f offset;         // from the frame's origin
+  std::uint32_t brick;  // its place in the frame
   std::uint32_t point;
 };
 
-LocalBox box_of(std::span<const Member> members) {
-  LocalBox box{members.front().offset, members.front().offset};
-  for (const Member& m : members) {
-    const Vec3f p = m.offset;
-    box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y), std::min(box.low.z, p.z)};
-    box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y), std::max(box.high.z, p.z)};
-  }
-  return box;
-}
-
-/// The box in which points of `box` may be evaluated.
-LocalBox reach_of(const LocalBox& box, Within within) {
-  if (within == Within::point) return box;
-  const auto below = [](Vec3f p) {
-    return Vec3f(std::floor(p.x), std::floor(p.y), std::floor(p.z));
-  };
-  return {below(box.low), below(box.high) + Vec3f(1, 1, 1)};
-}
-
-/// Searches a cluster at a time: halves it, by whole chunks, along the longest side.
-class Search {
+/// Lists of kernels by brick.
+class KnownLists {
  public:
-  Search(const KernelSet& set, const KernelGroups& groups, Within within)
-      : near_(set, groups), within_(within) {}
+  explicit KnownLists(const BrickList* lists) : lists_(lists) {
+    if (!lists) return;
+    bricks_.reserve(lists->size());
+    for (std::uint32_t b = 0; b < lists->size(); ++b) bricks_.push_back({lists->origins[b], b});
+    tbb::parallel_sort(bricks_);
+  }
 
-  /// Writes the cluster's chunks to `batch` from `chunk` on and their lists to `ranks`; chunks
-  /// index into `ranks`.
-  template <class T>
-  void operator()(std::span<const Vec3<T>> points, const Cluster& cluster, std::size_t chunk,
-                  PointBatch& batch, std::vector<std::uint32_t>& ranks) {
-    origin_ = cluster.runs.front().frame;
-    batch_ = &batch;
-    chunk_points_ = batch.chunk_points;
-    chunk_ = chunk;
-    ranks_ = &ranks;
-    ranks.clear();
-    members_.clear();
-    for (const Run& run : cluster.runs) {
-      for (std::uint32_t i = run.begin; i < run.end; ++i) {
-        members_.push_back({Vec3f(Vec3d(points[i]) - to_vec3d(origin_)), i});
-      }
-    }
-    near_.load(origin_, reach_of(box_of(members_), within_));
-    halve(members_);
+  /// The list of a block; none if it is not known.
+  std::optional<std::span<const std::uint32_t>> of(const Block& block) const {
+    if (!lists_ || block.edge != kBrickEdge) return {};
+    const auto found = std::ranges::lower_bound(bricks_, block.origin, {}, &Known::first);
+    if (found == bricks_.end() || found->first != block.origin) return {};
+    return lists_->list(found->second);
   }
 
  private:
-  void halve(std::span<Member> members) {
-    const LocalBox box = box_of(members);
-    if (members.size() <= chunk_points_) return add_chunk(members, reach_of(box, within_));
-    const Vec3f side = box.high - box.low;
+  using Known = std::pair<Coord, std::uint32_t>;
+  const BrickList* lists_;
+  std::vector<Known> bricks_;
+};
+
+/// A box around places that are evaluated, in voxels from an origin nearby.
+struct PlaceBox {
+  Vec3f centre, half;
+};
+
+/// Whether a kernel's support may reach the box, by the bound on xi that is octants.h's.
+bool reaches(const LatticeKernel& k, Coord origin, const PlaceBox& box) {
+  const float dx = static_cast<float>(k.cell.x - origin.x) + k.offset.x - box.centre.x;
+  const float dy = static_cast<float>(k.cell.y - origin.y) + k.offset.y - box.centre.y;
+  const float dz = static_cast<float>(k.cell.z - origin.z) + k.offset.z - box.centre.z;
+  const auto beyond = [](float middle, float extent) {
+    return std::max(std::fabs(middle) - extent, 0.0f);
+  };
+  const Vec3f h = box.half;
+  const float x = beyond(k.xx * dx + k.xy * dy + k.xz * dz,
+                         k.xx * h.x + std::fabs(k.xy) * h.y + std::fabs(k.xz) * h.z);
+  const float y = beyond(k.yy * dy + k.yz * dz, k.yy * h.y + std::fabs(k.yz) * h.z);
+  const float z = beyond(k.zz * dz, k.zz * h.z);
+  return x * x + y * y + z * z < k.top * (1.0f + kXiSlack);
+}
+
+/// Searches a slice at a time.
+class Search {
+ public:
+  Search(const KernelSet& set, const PointSearch& how, const KnownLists& known)
+      : set_(set), known_(known), how_(how) {}
+
+  template <class T>
+  PointBatch operator()(std::span<const Vec3<T>> points, std::span<const Run> runs) {
+    PointBatch batch;
+    batch.chunk_points = how_.chunk_points;
+    for (std::size_t begin = 0, end = 0; begin < runs.size(); begin = end) {
+      const Coord frame = runs[begin].frame;
+      members_.clear();
+      for (; end < runs.size() && runs[end].frame == frame; ++end) {
+        for (std::uint32_t i = runs[end].begin; i < runs[end].end; ++i) {
+          const Vec3f offset = offset_in(frame, Vec3d(points[i]));
+          members_.push_back({offset, brick_of(offset), i});
+        }
+      }
+      std::ranges::sort(members_, {}, &Member::brick);
+      add_frame(frame, batch);
+    }
+    return batch;
+  }
+
+ private:
+  void add_frame(Coord frame, PointBatch& batch) {
+    if (!how_.known && !pays_to_divide()) {
+      return add_block({frame, kFrameEdge}, frame, members_, batch);
+    }
+    for (auto next = members_.begin(); next != members_.end();) {
+      const auto last = std::find_if(next, members_.end(),
+                                     [&](const Member& m) { return m.brick != next->brick; });
+      const Coord brick = frame + block_origin(cell_of(Vec3d(next->offset)), kBrickEdge);
+      add_block({brick, kBrickEdge}, frame, std::span(next, last), batch);
+      next = last;
+    }
+  }
+
+  /// The number of a point's brick in its frame.
+  static std::uint32_t brick_of(Vec3f offset) {
+    const auto upper = [](float v) { return v >= kBrickEdge ? 1u : 0u; };
+    static_assert(kFrameEdge == 2 * kBrickEdge);
+    return upper(offset.x) << 2 | upper(offset.y) << 1 | upper(offset.z);
+  }
+
+  /// Whether the frame is searched brick by brick. Each group tests the whole list of its block: a
+  /// frame's is about three times as long as a brick's.
+  bool pays_to_divide() const {
+    std::size_t bricks = 1;
+    for (std::size_t i = 1; i < members_.size(); ++i) {
+      bricks += members_[i].brick != members_[i - 1].brick;
+    }
+    const std::size_t group_points = kGroupChunks * how_.chunk_points;
+    return 3 * ((members_.size() + group_points - 1) / group_points) > bricks;
+  }
+
+  /// The kernels that may reach the places where points are evaluated, in a frame.
+  std::span<const std::uint32_t> near(Coord frame, std::span<const Member> members) {
+    const auto [low, high] = range_of(members);
+    const PlaceBox places = places_in(low, high);
+    const Vec3d centre = to_vec3d(frame) + Vec3d(places.centre), half(places.half);
+    set_.gather(centre - half, centre + half, near_);
+    // The device tests the list for each group anyway, so a test here pays off with several.
+    if (members.size() > kGroupChunks * how_.chunk_points) {
+      std::erase_if(
+          near_, [&](std::uint32_t rank) { return !reaches(set_.kernels()[rank], frame, places); });
+    }
+    return near_;
+  }
+
+  void add_block(const Block& block, Coord frame, std::span<Member> members, PointBatch& batch) {
+    const auto known = known_.of(block);
+    batch.bricks.add(block.origin, known ? *known : near(frame, members));
+    halve(members, batch.chunk_points);
+    const std::size_t group_points = kGroupChunks * batch.chunk_points;
+    while (!members.empty()) {
+      const auto of_group = members.first(std::min(members.size(), group_points));
+      add_group(frame, of_group, batch);
+      members = members.subspan(of_group.size());
+    }
+  }
+
+  static std::pair<Vec3f, Vec3f> range_of(std::span<const Member> members) {
+    Vec3f low = members.front().offset, high = low;
+    for (const auto& [p, brick, point] : members) {
+      low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+      high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+    }
+    return {low, high};
+  }
+
+  /// Orders points so that chunks, consecutive ones, have small boxes: halves them, by whole
+  /// chunks, along the longest side.
+  static void halve(std::span<Member> members, std::size_t chunk_points) {
+    if (members.size() <= chunk_points) return;
+    const auto [low, high] = range_of(members);
+    const Vec3f side = high - low;
     const auto axis = side.x >= side.y && side.x >= side.z ? &Vec3f::x
                       : side.y >= side.z                   ? &Vec3f::y
                                                            : &Vec3f::z;
-    const std::size_t half = (chunks_of(members.size(), chunk_points_) + 1) / 2 * chunk_points_;
+    const std::size_t chunks = (members.size() + chunk_points - 1) / chunk_points;
+    const std::size_t half = (chunks + 1) / 2 * chunk_points;
     std::nth_element(
         members.begin(), members.begin() + static_cast<std::ptrdiff_t>(half), members.end(),
         [axis](const Member& a, const Member& b) { return a.offset.*axis < b.offset.*axis; });
-    halve(members.first(half));
-    halve(members.subspan(half));
+    halve(members.first(half), chunk_points);
+    halve(members.subspan(half), chunk_points);
   }
 
-  void add_chunk(std::span<const Member> members, const LocalBox& reach) {
-    const auto first = static_cast<std::uint32_t>(ranks_->size());
-    near_.append_reaching(reach, *ranks_);
-    batch_->chunks[chunk_] = {origin_, first, static_cast<std::uint32_t>(ranks_->size())};
-    for (std::size_t lane = 0; lane < chunk_points_; ++lane) {
-      const Member& m = members[std::min(lane, members.size() - 1)];
-      const std::size_t at = chunk_ * chunk_points_ + lane;
-      batch_->index[at] = m.point;
-      batch_->x[at] = m.offset.x, batch_->y[at] = m.offset.y, batch_->z[at] = m.offset.z;
+  /// The offset of a point from its frame, rounded so that its cell stays the same.
+  static Vec3f offset_in(Coord frame, Vec3d point) {
+    const Vec3d offset = point - to_vec3d(frame);
+    const auto rounded = [](double v) {
+      const auto near = static_cast<float>(v);
+      return static_cast<double>(near) < std::floor(v) + 1 ? near : std::nextafter(near, 0.0f);
+    };
+    return {rounded(offset.x), rounded(offset.y), rounded(offset.z)};
+  }
+
+  /// Adds a group to the last block.
+  void add_group(Coord frame, std::span<const Member> members, PointBatch& batch) {
+    const std::size_t n = batch.chunk_points;
+    PointGroup group{frame, *(batch.bricks.first.end() - 2), batch.bricks.first.back(),
+                     static_cast<std::uint32_t>(batch.index.size() / n), 0};
+    ChunkBoxes boxes;
+    for (; !members.empty(); ++group.count) {
+      const auto of_chunk = members.first(std::min(members.size(), n));
+      const std::size_t first = batch.index.size();
+      batch.index.resize(first + n);
+      for (auto* v : {&batch.x, &batch.y, &batch.z}) v->resize(first + n);
+      for (std::size_t lane = 0; lane < n; ++lane) {
+        const auto& [p, brick, point] = of_chunk[std::min(lane, of_chunk.size() - 1)];
+        const std::size_t at = first + lane;
+        batch.index[at] = point;
+        batch.x[at] = p.x, batch.y[at] = p.y, batch.z[at] = p.z;
+      }
+      const auto [low, high] = range_of(of_chunk);
+      const auto [centre, half] = places_in(low, high);
+      const float row[] = {centre.x, centre.y, centre.z, half.x, half.y, half.z};
+      for (std::size_t i = 0; i < boxes.size(); ++i) boxes[i][group.count] = row[i];
+      members = members.subspan(of_chunk.size());
     }
-    ++chunk_;
+    for (std::size_t c = group.count; c < kGroupChunks; ++c) {
+      for (auto& row : boxes) row[c] = row[group.count - 1];
+    }
+    batch.groups.push_back(group);
+    batch.boxes.push_back(boxes);
   }
 
-  NearKernels near_;
-  Within within_;
+  /// Where points of the box [low, high] are evaluated, rounding included.
+  PlaceBox places_in(Vec3f low, Vec3f high) const {
+    if (how_.within == Within::cell) {
+      const auto below = [](Vec3f p) {
+        return Vec3f(std::floor(p.x), std::floor(p.y), std::floor(p.z));
+      };
+      low = below(low), high = below(high) + Vec3f(1, 1, 1);
+    }
+    const float slack = kDistanceSlack * (static_cast<float>(set_.reach()) + kFrameEdge);
+    return {0.5f * (low + high),
+            0.5f * (1 + kPositionSlack) * (high - low) + Vec3f(slack, slack, slack)};
+  }
+
+  const KernelSet& set_;
+  const KnownLists& known_;
+  const PointSearch& how_;
+  std::vector<std::uint32_t> near_;
   std::vector<Member> members_;
-  Coord origin_;
-  PointBatch* batch_ = nullptr;
-  std::size_t chunk_points_ = 0;
-  std::vector<std::uint32_t>* ranks_ = nullptr;
-  std::size_t chunk_ = 0;
 };
 
-/// Replaces `batch` by the chunks of `clusters`. `lists` is scratch space.
 template <class T>
-void search(std::span<const Vec3<T>> points, std::span<const Cluster> clusters,
-            tbb::enumerable_thread_specific<Search>& searches,
-            std::vector<std::vector<std::uint32_t>>& lists, PointBatch& batch) {
-  std::vector<std::size_t> first_chunk{0};
-  for (const Cluster& c : clusters) {
-    first_chunk.push_back(first_chunk.back() + chunks_of(c.points, batch.chunk_points));
-  }
-  batch.chunks.resize(first_chunk.back());
-  batch.index.resize(first_chunk.back() * batch.chunk_points);
-  for (auto* v : {&batch.x, &batch.y, &batch.z}) v->resize(batch.index.size());
-
-  lists.resize(std::max(clusters.size(), lists.size()));
-  tbb::parallel_for(std::size_t{0}, clusters.size(), [&](std::size_t i) {
-    searches.local()(points, clusters[i], first_chunk[i], batch, lists[i]);
-  });
-
-  std::vector<std::size_t> first{0};
-  for (std::size_t i = 0; i < clusters.size(); ++i) first.push_back(first[i] + lists[i].size());
-  if (first.back() > std::numeric_limits<std::uint32_t>::max()) {
-    throw Error(ErrorCode::usage, "too many kernels reach one place",
-                "Lower --radius-max or --leaf-scale.");
-  }
-  batch.kernels.resize(first.back());
-  tbb::parallel_for(std::size_t{0}, clusters.size(), [&](std::size_t i) {
-    std::copy(lists[i].begin(), lists[i].end(),
-              batch.kernels.begin() + static_cast<std::ptrdiff_t>(first[i]));
-    for (std::size_t c = first_chunk[i]; c < first_chunk[i + 1]; ++c) {
-      batch.chunks[c].first += static_cast<std::uint32_t>(first[i]);
-      batch.chunks[c].end += static_cast<std::uint32_t>(first[i]);
+void find_near(const KernelSet& set, std::span<const Vec3<T>> points, const PointSearch& how,
+               const std::function<void(PointBatch&)>& visit) {
+  const std::vector<Run> runs = sorted_runs(points);
+  // Even if every kernel reaches every brick, a slice has 2^26 ranks at most, or one frame.
+  const std::size_t most_ranks = std::size_t{1} << 26;
+  const std::vector<std::span<const Run>> slices = in_slices(
+      runs, std::clamp<std::size_t>(most_ranks / (8 * set.kernels().size() + 1), 1, kSliceFrames));
+  const KnownLists known(how.known);
+  tbb::enumerable_thread_specific<Search> searches([&] { return Search(set, how, known); });
+  const auto threads = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
+  PointBatch batch;
+  std::size_t step = 4 * threads;  // slices searched at once
+  for (std::size_t begin = 0, end = 0; begin < slices.size(); begin = end) {
+    end = std::min(begin + step, slices.size());
+    std::vector<PointBatch> found(end - begin);
+    tbb::parallel_for(
+        begin, end, [&](std::size_t s) { found[s - begin] = searches.local()(points, slices[s]); });
+    std::size_t longest = 1;
+    for (PointBatch& one : found) {
+      longest = std::max(longest, one.bricks.kernels.size());
+      batch.append(std::exchange(one, {}));
+      if (batch.bricks.kernels.size() < kBatchRanks && batch.index.size() < kBatchPoints) continue;
+      visit(batch);
+      batch = {};
     }
-  });
+    step = std::clamp(kBatchRanks / longest, threads, 4 * threads);
+  }
+  if (!batch.groups.empty()) visit(batch);
 }
 
 template <class T>
-void find_near(const KernelSet& set, std::span<const Vec3<T>> points, Within within,
-               std::size_t chunk_points, const std::function<void(PointBatch&)>& visit) {
-  const std::vector<Run> runs = sorted_runs(points);
-  const std::vector<Cluster> clusters = in_clusters(runs);
-  if (clusters.empty()) return;
-  const KernelGroups groups(set.kernels());
-  tbb::enumerable_thread_specific<Search> searches([&] { return Search(set, groups, within); });
-  // Even if every kernel reaches every point, a batch has at most 64 MiB of ranks or one cluster.
-  constexpr std::size_t kMostEntries = std::size_t{1} << 24;
-  std::size_t group = std::clamp<std::size_t>(
-      kMostEntries / (chunks_of(kClusterPoints, chunk_points) * set.kernels().size() + 1), 1, 64);
-  std::vector<std::vector<std::uint32_t>> lists;
-  PointBatch batch;
-  batch.chunk_points = chunk_points;
-  for (std::size_t begin = 0, end = 0; begin < clusters.size(); begin = end) {
-    end = std::min(begin + group, clusters.size());
-    search(points, std::span(clusters).subspan(begin, end - begin), searches, lists, batch);
-    group = std::clamp<std::size_t>(kChunkEntries * (end - begin) / (batch.kernels.size() + 1), 1,
-                                    std::min(4 * group, kBatchClusters));
-    visit(batch);
-  }
+void append_all(std::vector<T>& to, const std::vector<T>& more) {
+  to.insert(to.end(), more.begin(), more.end());
 }
 
 }  // namespace
 
-void find_kernels_near(const KernelSet& kernels, std::span<const Vec3d> points, Within within,
-                       std::size_t chunk_points, const std::function<void(PointBatch&)>& visit) {
-  find_near(kernels, points, within, chunk_points, visit);
+void PointBatch::append(const PointBatch& other) {
+  chunk_points = other.chunk_points;
+  const auto kernels = static_cast<std::uint32_t>(bricks.kernels.size());
+  const auto chunks = static_cast<std::uint32_t>(index.size() / chunk_points);
+  bricks.append(other.bricks);
+  for (PointGroup group : other.groups) {
+    group.first += kernels, group.end += kernels, group.chunk += chunks;
+    groups.push_back(group);
+  }
+  append_all(boxes, other.boxes);
+  append_all(index, other.index);
+  append_all(x, other.x), append_all(y, other.y), append_all(z, other.z);
 }
 
-void find_kernels_near(const KernelSet& kernels, std::span<const Vec3f> points, Within within,
-                       std::size_t chunk_points, const std::function<void(PointBatch&)>& visit) {
-  find_near(kernels, points, within, chunk_points, visit);
+void find_kernels_near(const KernelSet& kernels, std::span<const Vec3d> points,
+                       const PointSearch& how, const std::function<void(PointBatch&)>& visit) {
+  find_near(kernels, points, how, visit);
+}
+
+void find_kernels_near(const KernelSet& kernels, std::span<const Vec3f> points,
+                       const PointSearch& how, const std::function<void(PointBatch&)>& visit) {
+  find_near(kernels, points, how, visit);
 }
 
 }  // namespace leafhull

@@ -11,9 +11,38 @@ namespace leafhull {
 namespace {
 
 constexpr std::size_t kWorkItems = 256;  // per brick, as in density_work_item.cl
-constexpr std::size_t kPointsPerGroup = 64;
 // PoCL compiles a kernel again for grids of 65,536 groups and more.
-constexpr std::size_t kBricksPerLaunch = 1 << 15;
+constexpr std::size_t kMostPerLaunch = 1 << 15;  // bricks or groups of points
+/// Scratch space of a launch: entries of lists, unless a group alone has more. Its 5 MiB stay in a
+/// CPU's caches; fresh memory costs more than the sums.
+constexpr std::size_t kMostEntries = std::size_t{1} << 17;
+
+// As in points.cl.
+constexpr std::size_t kRun = 32;
+using NearKernel = std::array<float, 10>;
+using Marks = std::array<std::uint32_t, kGroupChunks>;
+
+/// The entries of a group's list, in whole runs.
+std::size_t entries_of(const PointGroup& group) {
+  return (group.end - group.first + kRun - 1) / kRun * kRun;
+}
+
+/// Where each launch over `groups` ends. Gives the groups their places in its scratch space.
+std::vector<std::size_t> in_launches(std::span<PointGroup> groups) {
+  std::vector<std::size_t> ends;
+  std::size_t begin = 0, entries = 0;
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    const std::size_t more = entries_of(groups[g]);
+    if (g > begin && (entries + more > kMostEntries || g - begin == kMostPerLaunch)) {
+      ends.push_back(g);
+      begin = g, entries = 0;
+    }
+    groups[g].entry = static_cast<std::uint32_t>(entries);
+    entries += more;
+  }
+  if (!groups.empty()) ends.push_back(groups.size());
+  return ends;
+}
 
 }  // namespace
 
@@ -21,19 +50,38 @@ struct Evaluator::Impl {
   Device::Engine& engine;
   int falloff;
   cl::Buffer kernels;
+  cl::Buffer near = {}, marks = {};  // scratch space
+  std::size_t room = 0;              // entries of it
 
-  /// Runs a kernel over the points of a batch.
+  /// Makes room in the scratch space, in which launches take turns.
+  void reserve(std::size_t entries) {
+    if (entries <= room) return;
+    near = cl::Buffer(engine.context, CL_MEM_READ_WRITE, entries * sizeof(NearKernel));
+    marks = cl::Buffer(engine.context, CL_MEM_READ_WRITE, entries / kRun * sizeof(Marks));
+    room = entries;
+  }
+
+  /// Runs a kernel over the points of a batch, a launch's share at a time.
   template <class... Arguments>
-  void over_points(const char* name, const PointBatch& batch, const Arguments&... arguments) {
+  void over_points(const char* name, PointBatch& batch, const Arguments&... arguments) {
     cl::Kernel kernel = engine.kernel(name, falloff);
-    const cl::Buffer chunks = engine.input(batch.chunks), list = engine.input(batch.kernels);
-    const auto count = static_cast<cl_uint>(batch.chunks.size());
-    set_arguments(kernel, kernels, chunks, count, list, arguments...);
-    const std::size_t group = engine.vector() ? 1 : kPointsPerGroup;
-    const std::size_t items = engine.vector() ? count : count * engine.chunk_points();
-    engine.queue.enqueueNDRangeKernel(kernel, cl::NullRange,
-                                      cl::NDRange((items + group - 1) / group * group),
-                                      cl::NDRange(group));
+    const cl::Buffer list = engine.input(batch.bricks.kernels);
+    const std::size_t items = engine.vector() ? 1 : kGroupChunks * batch.chunk_points;
+    const std::vector<std::size_t> ends = in_launches(batch.groups);
+    std::size_t entries = kMostEntries;
+    for (const PointGroup& g : batch.groups) entries = std::max(entries, entries_of(g));
+    reserve(entries);
+    std::size_t begin = 0;
+    for (const std::size_t end : ends) {
+      const auto part = [&](const auto& all) {
+        return engine.buffer(std::span(all).subspan(begin, end - begin), CL_MEM_READ_ONLY);
+      };
+      const cl::Buffer groups = part(batch.groups), boxes = part(batch.boxes);
+      set_arguments(kernel, kernels, groups, list, boxes, near, marks, arguments...);
+      engine.queue.enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange((end - begin) * items),
+                                        cl::NDRange(items));
+      begin = end;
+    }
   }
 };
 
@@ -59,8 +107,8 @@ std::uint64_t Evaluator::sample(const BrickList& bricks, std::span<float> sample
     cl::Kernel kernel = d.engine.kernel("density_bricks", d.falloff);
     const cl::Buffer list = d.engine.input(bricks.kernels);
     const std::size_t items = d.engine.vector() ? 1 : kWorkItems;
-    for (std::size_t begin = 0; begin < bricks.size(); begin += kBricksPerLaunch) {
-      const std::size_t count = std::min(kBricksPerLaunch, bricks.size() - begin);
+    for (std::size_t begin = 0; begin < bricks.size(); begin += kMostPerLaunch) {
+      const std::size_t count = std::min(kMostPerLaunch, bricks.size() - begin);
       const auto out = samples.subspan(begin * kBrickSamples, count * kBrickSamples);
       const auto out_pairs = std::span(pairs).subspan(begin, count);
       const cl::Buffer origins_in = d.engine.buffer(
@@ -81,7 +129,7 @@ std::uint64_t Evaluator::sample(const BrickList& bricks, std::span<float> sample
   return total;
 }
 
-std::vector<float> Evaluator::density(const PointBatch& batch) {
+std::vector<float> Evaluator::density(PointBatch& batch) {
   Impl& d = *impl_;
   std::vector<float> density(batch.index.size());
   d.engine.run("evaluating the density at points", [&] {
@@ -120,10 +168,9 @@ void prepare(Device& device, int falloff) {
   std::vector<float> samples(kBrickSamples);
   nothing.sample(brick, samples);
   PointBatch points;
-  points.chunks.resize(1);
   points.chunk_points = nothing.chunk_points();
-  points.index.resize(points.chunk_points);
-  for (auto* v : {&points.x, &points.y, &points.z}) v->resize(points.chunk_points);
+  points.groups.resize(1);
+  points.boxes.resize(1);
   nothing.density(points);
   nothing.snap(points, 1, 1);
 }

@@ -30,7 +30,7 @@ class Evaluator {
   std::size_t chunk_points() const;
 
   /// N at the points of a batch, in the order of batch.index.
-  std::vector<float> density(const PointBatch& batch);
+  std::vector<float> density(PointBatch& batch);
 
   /// Moves the points of a batch onto N = threshold and returns the normals there, zero where the
   /// gradient vanishes. With 0 steps it only returns the normals.

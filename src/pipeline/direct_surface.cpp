@@ -20,9 +20,8 @@ bool reaches(const Field& field) {
 }  // namespace
 
 struct DirectSurface::Impl {
-  /// The kernels and lists that the caster reads; only for a tree.
+  /// Holds the kernels and lists that the caster reads; only for a tree.
   std::shared_ptr<DensityFunction> density;
-  std::shared_ptr<const BrickList> lists;
   Report report;
   std::shared_ptr<const Field> field;
   std::optional<BrickGrid> grid;
@@ -62,7 +61,6 @@ DirectSurface::DirectSurface(const LeafSet& leaves, const Options& options, Devi
   d.report = describe(run, prepared);
   if (pieces) describe_pieces(*pieces, d.report);
   d.density = std::move(sampled.density);
-  d.lists = std::move(sampled.lists);
   d.field = std::make_shared<const Field>(std::move(sampled.field));
   watch.start("bricks");
   d.grid.emplace(*d.field);
@@ -71,7 +69,7 @@ DirectSurface::DirectSurface(const LeafSet& leaves, const Options& options, Devi
     const ComponentCells cells = cells_of_components(mesh_bricks(*d.field), smallest);
     d.grid->draw_only(cells.kept, cells.dropped);
   }
-  d.caster.emplace(device, *d.grid, prepared.threshold, d.density->kernels(), *d.lists,
+  d.caster.emplace(device, *d.grid, prepared.threshold, d.density->kernels(), *d.density->lists(),
                    resolved.falloff);
   d.report.seconds = watch.finish();
 }

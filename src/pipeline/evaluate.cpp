@@ -20,11 +20,15 @@ Vec3d rounded(Vec3f offset) {
   return Vec3d(r(offset.x), r(offset.y), r(offset.z)) * 0x1p-20;
 }
 
-/// Visits lanes chunk by chunk; lanes that fill up a chunk repeat one of its points.
+/// Visits the lanes of each group; lanes that fill up a chunk repeat one of its points.
 template <class Visit>
 void for_each_lane(const PointBatch& batch, Visit&& visit) {
-  tbb::parallel_for(std::size_t{0}, batch.chunks.size(), [&](std::size_t chunk) {
-    for (std::size_t i = 0; i < batch.chunk_points; ++i) visit(chunk * batch.chunk_points + i);
+  tbb::parallel_for(std::size_t{0}, batch.groups.size(), [&](std::size_t g) {
+    const PointGroup& group = batch.groups[g];
+    const std::size_t first = group.chunk * batch.chunk_points;
+    for (std::size_t lane = first; lane < first + group.count * batch.chunk_points; ++lane) {
+      visit(lane, group.origin);
+    }
   });
 }
 
@@ -32,11 +36,12 @@ void for_each_lane(const PointBatch& batch, Visit&& visit) {
 
 std::vector<float> DensityFunction::at(std::span<const Vec3d> points) {
   std::vector<float> density(points.size(), 0.0f);
-  find_kernels_near(
-      kernels_, points, Within::point, evaluator_.chunk_points(), [&](const PointBatch& batch) {
-        const std::vector<float> values = evaluator_.density(batch);
-        for_each_lane(batch, [&](std::size_t lane) { density[batch.index[lane]] = values[lane]; });
-      });
+  const PointSearch how{Within::point, evaluator_.chunk_points()};
+  find_kernels_near(kernels_, points, how, [&](PointBatch& batch) {
+    const std::vector<float> values = evaluator_.density(batch);
+    for_each_lane(batch,
+                  [&](std::size_t lane, Coord) { density[batch.index[lane]] = values[lane]; });
+  });
   return density;
 }
 
@@ -84,12 +89,14 @@ DensityFunction::Sampled DensityFunction::sample(const BandOptions& options, Fie
   Sampled result;
   result.field = std::move(empty);
   Field& field = result.field;
+  lists_.reset();
+  if (lists == Lists::keep) lists_.emplace();
   const auto inside = find_band(kernels_, options, [&](const BrickList& bricks, double done) {
     const std::size_t size = bricks.size() * kBrickSamples;
     const auto samples = std::make_unique_for_overwrite<float[]>(size);
     result.pairs += evaluator_.sample(bricks, {samples.get(), size});
     field.add_bricks(bricks.origins, {samples.get(), size});
-    if (lists == Lists::keep) result.lists.append(bricks);
+    if (lists_) lists_->append(bricks);
     advance(done);
   });
   field.add_inside(inside);
@@ -102,16 +109,15 @@ std::vector<Vec3f> DensityFunction::snap_points(std::span<Vec3<T>> points, doubl
   std::vector<Vec3f> normals(points.size());
   const auto put = [&](PointBatch& batch) {
     const Evaluator::Normals normal = evaluator_.snap(batch, threshold, steps);
-    for_each_lane(batch, [&](std::size_t lane) {
+    for_each_lane(batch, [&](std::size_t lane, Coord origin) {
       const std::uint32_t point = batch.index[lane];
       const Vec3f offset(batch.x[lane], batch.y[lane], batch.z[lane]);
-      points[point] =
-          Vec3<T>(to_vec3d(batch.chunks[lane / batch.chunk_points].origin) + rounded<T>(offset));
+      points[point] = Vec3<T>(to_vec3d(origin) + rounded<T>(offset));
       normals[point] = {normal.x[lane], normal.y[lane], normal.z[lane]};
     });
   };
-  find_kernels_near(kernels_, std::span<const Vec3<T>>(points), Within::cell,
-                    evaluator_.chunk_points(), put);
+  find_kernels_near(kernels_, std::span<const Vec3<T>>(points),
+                    {Within::cell, evaluator_.chunk_points(), lists()}, put);
   return normals;
 }
 

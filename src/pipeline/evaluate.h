@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -37,7 +38,6 @@ class DensityFunction {
   struct Sampled {
     Field field;
     std::uint64_t pairs = 0;  ///< kernel-sample pairs evaluated
-    BrickList lists;          ///< the kernels near each brick of the field, if kept
   };
   enum class Lists { forget, keep };  ///< whether to keep the lists of kernels near each brick
   /// N where a surface N = T may be, for all `thresholds`, ascending; if `dense`, wherever a
@@ -48,8 +48,11 @@ class DensityFunction {
   /// As above for one threshold, in the bricks that meet `range`.
   Sampled sample_band(double threshold, const SampleBox& range);
 
+  /// The kernels near each brick of the last field sampled, in the field's order, if kept.
+  const BrickList* lists() const { return lists_ ? &*lists_ : nullptr; }
+
   /// Moves points onto N = threshold within their cells, in at most `steps` steps, and returns the
-  /// outward unit normals there, zero where the gradient vanishes.
+  /// outward unit normals there, zero where the gradient vanishes. Kept lists make it quicker.
   std::vector<Vec3f> snap(std::span<Vec3f> points, double threshold, int steps);
   /// As above, but points are multiples of 2^-20 voxels, so that they do not depend on the anchor.
   std::vector<Vec3f> snap(std::span<Vec3d> points, double threshold, int steps);
@@ -64,6 +67,7 @@ class DensityFunction {
 
   KernelSet kernels_;
   Evaluator evaluator_;
+  std::optional<BrickList> lists_;
   int falloff_;
 };
 

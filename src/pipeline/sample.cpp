@@ -24,8 +24,7 @@ Sampled sample(const Run& run, const Prepared& prepared, const std::vector<doubl
   DensityFunction::Sampled sampled =
       density->sample_band(thresholds, options.margin, options.dense, lists,
                            [&](double done) { run.watch.advance(done); });
-  return {std::move(sampled.field), sampled.pairs,
-          std::make_shared<const BrickList>(std::move(sampled.lists)), density};
+  return {std::move(sampled.field), sampled.pairs, density};
 }
 
 Field without_hollows(const Run& run, const Prepared& prepared, Field field) {

@@ -17,7 +17,6 @@ namespace leafhull {
 struct Sampled {
   Field field;                               ///< its own threshold is the lowest
   std::uint64_t pairs = 0;                   ///< kernel-sample pairs evaluated
-  std::shared_ptr<const BrickList> lists;    ///< of the kernels near each brick, if kept
   std::shared_ptr<DensityFunction> density;  ///< the density that was sampled
 };
 

@@ -99,7 +99,7 @@ class Series {
       const auto& [index, prepared] = entry;
       if (!failure.empty()) return fail(index, prepared.options, prepared.grid, failure);
       SampledSurface surface{{without_hollows(run_, prepared, sampled.field.at(prepared.threshold)),
-                              sampled.pairs, sampled.lists, sampled.density},
+                              sampled.pairs, sampled.density},
                              {}};
       surface.pieces = polygonise(run_, surface.sampled.field, prepared.options);
       return finish(index, prepared, surface);

@@ -83,12 +83,10 @@ TEST_P(EvaluatorTest, WeightedSamplesAgreeWithFloat64) {
 std::vector<float> density_at(Evaluator& evaluator, const KernelSet& set,
                               std::span<const Vec3d> points) {
   std::vector<float> density(points.size(), -1);
-  find_kernels_near(set, points, Within::point, evaluator.chunk_points(),
-                    [&](const PointBatch& batch) {
-                      const auto values = evaluator.density(batch);
-                      for (std::size_t i = 0; i < values.size(); ++i)
-                        density[batch.index[i]] = values[i];
-                    });
+  find_kernels_near(set, points, {Within::point, evaluator.chunk_points()}, [&](PointBatch& batch) {
+    const auto values = evaluator.density(batch);
+    for (std::size_t i = 0; i < values.size(); ++i) density[batch.index[i]] = values[i];
+  });
   return density;
 }
 
@@ -100,13 +98,15 @@ struct Snapped {
 Snapped snap(Evaluator& evaluator, const KernelSet& set, std::span<const Vec3d> points,
              double threshold, int steps) {
   Snapped snapped{std::vector<Vec3d>(points.size()), std::vector<Vec3f>(points.size())};
-  find_kernels_near(set, points, Within::cell, evaluator.chunk_points(), [&](PointBatch& batch) {
+  find_kernels_near(set, points, {Within::cell, evaluator.chunk_points()}, [&](PointBatch& batch) {
     const Evaluator::Normals n = evaluator.snap(batch, threshold, steps);
-    for (std::size_t i = 0; i < batch.index.size(); ++i) {
-      const Vec3d offset(Vec3f(batch.x[i], batch.y[i], batch.z[i]));
-      snapped.points[batch.index[i]] =
-          to_vec3d(batch.chunks[i / batch.chunk_points].origin) + offset;
-      snapped.normals[batch.index[i]] = {n.x[i], n.y[i], n.z[i]};
+    for (const PointGroup& group : batch.groups) {
+      const std::size_t first = group.chunk * batch.chunk_points;
+      for (std::size_t i = first; i < first + group.count * batch.chunk_points; ++i) {
+        const Vec3d offset(Vec3f(batch.x[i], batch.y[i], batch.z[i]));
+        snapped.points[batch.index[i]] = to_vec3d(group.origin) + offset;
+        snapped.normals[batch.index[i]] = {n.x[i], n.y[i], n.z[i]};
+      }
     }
   });
   return snapped;
