@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Computes N and its gradient at scattered points, and moves mesh vertices onto the surface N = T.
 //
-// A brick's points come in groups of up to CHUNKS chunks of CHUNK_POINTS, which share the brick's
-// list of kernels. First, each kernel of the list is tested against the boxes of all chunks and
-// gets a mark in those that it reaches. Then every chunk sums its marked kernels in the order of
-// the list.
+// The points of a block come in groups of up to CHUNKS chunks of CHUNK_POINTS, which share the
+// block's list of kernels. First, each kernel of the list is tested against the boxes of all chunks
+// and gets a mark in those that it reaches. Then every chunk sums its marked kernels in the order
+// of the list.
 //
 // On a CPU a work-item takes a group, its lanes the points of a chunk (LANES = CHUNK_POINTS).
 // Global size: the number of groups. On a GPU a work-group takes a group, a work-item a point

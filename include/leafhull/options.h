@@ -68,7 +68,7 @@ struct Options {
   std::optional<double> voxel_size;  ///< model units
   bool dense = false;
   bool snap = true;
-  std::optional<Mesher> mesher;  ///< both give the same vertices and faces, in other orders
+  std::optional<Mesher> mesher;  ///< without adaptivity both give the same surface
   double adaptivity = 0;         ///< only for Mesher::vdb
 
   ReadOptions read_options() const { return {up, allow_outside}; }

@@ -64,8 +64,15 @@ struct StageTime {
   double seconds = 0;
 };
 
+/// How much an extraction computes.
+enum class Detail {
+  shape,   ///< the mesh, the field and the kernels; of N at the leaves only what these depend on
+  report,  ///< and what only a report tells: the density at the leaves and the metrics
+};
+
 /// What an extraction did, for people and for `--report`.
 struct Report {
+  Detail detail = Detail::report;
   Options options;              ///< resolved
   double threshold = 0;         ///< T
   double radius_max_model = 0;  ///< R_max, model units
@@ -93,15 +100,9 @@ struct Shape {
   Report report;
 };
 
-/// How much an extraction computes.
-enum class Detail {
-  shape,   ///< the mesh, the field and the kernels; of N at the leaves only what these depend on
-  report,  ///< and what only a report tells: the density at the leaves and the metrics
-};
-
 /// The abstract shape of a tree's leaves: the stages of Figure 8, one after the other. SPEC: 2
 /// to 6. With Detail::shape the report's `density`, `covered` and `metrics` may be zero, and
-/// `isotropic_density` may be empty.
+/// `isotropic_density` may be empty; write_outputs then refuses a report and kernels.
 /// @throws Error usage: options, or a resolution that does not fit in memory; input: no leaves, or
 ///         a crown without extent; device: a kernel that does not build (with its log) or run;
 ///         empty: no sample reaches the threshold.

@@ -235,11 +235,12 @@ class Search {
   /// The offset of a point from its frame, rounded so that its cell stays the same.
   static Vec3f offset_in(Coord frame, Vec3d point) {
     const Vec3d offset = point - to_vec3d(frame);
-    const auto rounded = [](double v) {
-      const auto near = static_cast<float>(v);
-      return static_cast<double>(near) < std::floor(v) + 1 ? near : std::nextafter(near, 0.0f);
+    const Vec3d end = to_vec3d(cell_of(point)) - to_vec3d(frame) + Vec3d(1, 1, 1);
+    const auto below = [](double v, double bound) {
+      const auto near = static_cast<float>(v), limit = static_cast<float>(bound);
+      return near < limit ? near : std::nextafter(limit, 0.0f);
     };
-    return {rounded(offset.x), rounded(offset.y), rounded(offset.z)};
+    return {below(offset.x, end.x), below(offset.y, end.y), below(offset.z, end.z)};
   }
 
   /// Adds a group to the last block.
@@ -296,15 +297,16 @@ template <class T>
 void find_near(const KernelSet& set, std::span<const Vec3<T>> points, const PointSearch& how,
                const std::function<void(PointBatch&)>& visit) {
   const std::vector<Run> runs = sorted_runs(points);
-  // Even if every kernel reaches every brick, a slice has 2^26 ranks at most, or one frame.
-  const std::size_t most_ranks = std::size_t{1} << 26;
+  const auto threads = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
+  // Even if every kernel reaches every brick, there are 2^26 ranks at once at most, or a frame's
+  // for each thread.
+  const std::size_t most_ranks = (std::size_t{1} << 26) / threads;
   const std::vector<std::span<const Run>> slices = in_slices(
       runs, std::clamp<std::size_t>(most_ranks / (8 * set.kernels().size() + 1), 1, kSliceFrames));
   const KnownLists known(how.known);
   tbb::enumerable_thread_specific<Search> searches([&] { return Search(set, how, known); });
-  const auto threads = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
   PointBatch batch;
-  std::size_t step = 4 * threads;  // slices searched at once
+  std::size_t step = threads;  // slices searched at once
   for (std::size_t begin = 0, end = 0; begin < slices.size(); begin = end) {
     end = std::min(begin + step, slices.size());
     std::vector<PointBatch> found(end - begin);
@@ -318,7 +320,7 @@ void find_near(const KernelSet& set, std::span<const Vec3<T>> points, const Poin
       visit(batch);
       batch = {};
     }
-    step = std::clamp(kBatchRanks / longest, threads, 4 * threads);
+    step = std::clamp<std::size_t>(kBatchRanks / longest, 1, 4 * threads);
   }
   if (!batch.groups.empty()) visit(batch);
 }

@@ -15,11 +15,11 @@ namespace leafhull {
 /// there depends on the point alone.
 inline constexpr int kFrameEdge = 16;
 
-/// Points of a brick that are evaluated together, in up to kGroupChunks chunks, as the device reads
-/// it (`Group` of points.cl).
+/// Points of a block, a brick or a whole frame with few points, that are evaluated together, in up
+/// to kGroupChunks chunks, as the device reads it (`Group` of points.cl).
 struct PointGroup {
   Coord origin;                        ///< of the frame that holds them
-  std::uint32_t first = 0, end = 0;    ///< into PointBatch::bricks.kernels: the list of their brick
+  std::uint32_t first = 0, end = 0;    ///< into PointBatch::bricks.kernels: the list of their block
   std::uint32_t chunk = 0, count = 0;  ///< its first chunk, and their number
   std::uint32_t entry = 0;             ///< its place in the scratch space of a launch
 };
@@ -35,13 +35,13 @@ using ChunkBoxes = std::array<std::array<float, kGroupChunks>, 6>;
 /// Points in chunks; a chunk that is not full repeats a point.
 struct PointBatch {
   std::size_t chunk_points = 0;  ///< points per chunk
-  BrickList bricks;              ///< those that hold the points
+  BrickList bricks;              ///< the blocks that hold the points
   std::vector<PointGroup> groups;
   std::vector<ChunkBoxes> boxes;     ///< by group
   std::vector<std::uint32_t> index;  ///< into the points to evaluate
   std::vector<float> x, y, z;        ///< offsets from the frame's origin, voxels
 
-  /// Adds bricks with their groups.
+  /// Adds blocks with their groups.
   void append(const PointBatch& other);
 };
 
@@ -56,7 +56,7 @@ struct PointSearch {
   const BrickList* known = nullptr;
 };
 
-/// Finds the kernels near each of `points` (voxels from the anchor), brick by brick, and hands them
+/// Finds the kernels near each of `points` (voxels from the anchor), block by block, and hands them
 /// over in batches of bounded size. The device works only while no search runs.
 void find_kernels_near(const KernelSet& kernels, std::span<const Vec3d> points,
                        const PointSearch& how, const std::function<void(PointBatch&)>& visit);

@@ -24,7 +24,6 @@ using Floats = float __attribute__((vector_size(32)));
 using Ints = std::int32_t __attribute__((vector_size(32)));
 
 ALWAYS_INLINE Floats positive(Floats a) { return a > 0.0f ? a : Floats{}; }
-ALWAYS_INLINE Floats larger(Floats a, Floats b) { return a > b ? a : b; }
 ALWAYS_INLINE Floats absolute(Floats a) {
   return std::bit_cast<Floats>(std::bit_cast<Ints>(a) & 0x7fffffff);
 }

@@ -39,8 +39,7 @@ struct Device::Engine {
   /// True for the variant with explicit vectors.
   bool vector() const { return info.variant == "vector"; }
 
-  /// The number of points that share a list of kernels (points.cl): the lanes of its widest
-  /// vectors. More would cost more than they save, as a list grows with its points.
+  /// The number of points in a chunk (points.cl): the lanes of its widest vectors.
   std::size_t chunk_points() const { return vector() && float_lanes >= 16 ? 16 : 8; }
 
   /// Whether the device works in the host's memory, so that buffers need no copies.

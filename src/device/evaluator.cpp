@@ -13,9 +13,12 @@ namespace {
 constexpr std::size_t kWorkItems = 256;  // per brick, as in density_work_item.cl
 // PoCL compiles a kernel again for grids of 65,536 groups and more.
 constexpr std::size_t kMostPerLaunch = 1 << 15;  // bricks or groups of points
-/// Scratch space of a launch: entries of lists, unless a group alone has more. Its 5 MiB stay in a
-/// CPU's caches; fresh memory costs more than the sums.
-constexpr std::size_t kMostEntries = std::size_t{1} << 17;
+/// Scratch space of a launch: entries of lists for each compute unit, 2.6 MiB, which stay in a
+/// CPU's caches. There may be more where some groups have long lists, up to 180 MiB or one group,
+/// so that every unit has work.
+constexpr std::size_t kUnitEntries = std::size_t{1} << 16;
+constexpr std::size_t kUnitGroups = 4;
+constexpr std::size_t kMostEntries = std::size_t{1} << 22;
 
 // As in points.cl.
 constexpr std::size_t kRun = 32;
@@ -27,21 +30,30 @@ std::size_t entries_of(const PointGroup& group) {
   return (group.end - group.first + kRun - 1) / kRun * kRun;
 }
 
-/// Where each launch over `groups` ends. Gives the groups their places in its scratch space.
-std::vector<std::size_t> in_launches(std::span<PointGroup> groups) {
-  std::vector<std::size_t> ends;
+/// The launches over some groups.
+struct Launches {
+  std::vector<std::size_t> ends;  ///< the group where each ends
+  std::size_t entries = 0;        ///< of the largest
+};
+
+/// Shares out groups among launches on so many compute units, and gives them their places in the
+/// scratch space.
+Launches in_launches(std::span<PointGroup> groups, std::size_t units) {
+  Launches launches;
   std::size_t begin = 0, entries = 0;
   for (std::size_t g = 0; g < groups.size(); ++g) {
-    const std::size_t more = entries_of(groups[g]);
-    if (g > begin && (entries + more > kMostEntries || g - begin == kMostPerLaunch)) {
-      ends.push_back(g);
+    const std::size_t more = entries + entries_of(groups[g]), count = g - begin;
+    const bool is_full = more > units * kUnitEntries && count >= units * kUnitGroups;
+    if (count > 0 && (is_full || more > kMostEntries || count == kMostPerLaunch)) {
+      launches.ends.push_back(g);
       begin = g, entries = 0;
     }
     groups[g].entry = static_cast<std::uint32_t>(entries);
-    entries += more;
+    entries += entries_of(groups[g]);
+    launches.entries = std::max(launches.entries, entries);
   }
-  if (!groups.empty()) ends.push_back(groups.size());
-  return ends;
+  if (!groups.empty()) launches.ends.push_back(groups.size());
+  return launches;
 }
 
 }  // namespace
@@ -67,12 +79,11 @@ struct Evaluator::Impl {
     cl::Kernel kernel = engine.kernel(name, falloff);
     const cl::Buffer list = engine.input(batch.bricks.kernels);
     const std::size_t items = engine.vector() ? 1 : kGroupChunks * batch.chunk_points;
-    const std::vector<std::size_t> ends = in_launches(batch.groups);
-    std::size_t entries = kMostEntries;
-    for (const PointGroup& g : batch.groups) entries = std::max(entries, entries_of(g));
-    reserve(entries);
+    const auto units = static_cast<std::size_t>(std::max(engine.info.compute_units, 1));
+    const Launches launches = in_launches(batch.groups, units);
+    reserve(std::max(launches.entries, units * kUnitEntries));
     std::size_t begin = 0;
-    for (const std::size_t end : ends) {
+    for (const std::size_t end : launches.ends) {
       const auto part = [&](const auto& all) {
         return engine.buffer(std::span(all).subspan(begin, end - begin), CL_MEM_READ_ONLY);
       };

@@ -138,6 +138,10 @@ std::vector<std::string> rounding_warnings(const OutputPlan& plan, const Shape& 
 
 void write_outputs(const OutputPlan& plan, const Shape& shape, const RunDescription& run) {
   const OutputFiles& files = plan.files();
+  if ((files.report || files.kernels) && shape.report.detail != Detail::report) {
+    throw Error(ErrorCode::usage, "a shape without the density at its leaves has no report",
+                "Extract it with Detail::report.");
+  }
   using Clock = std::chrono::steady_clock;
   const Clock::time_point begin = Clock::now();
   Transaction transaction;

@@ -71,6 +71,7 @@ Report describe(const Options& resolved, const Grid& grid) {
 Report describe(const Run& run, const Prepared& prepared) {
   Report report = describe(prepared.options, prepared.grid);
   const LeafSet& leaves = run.leaves;
+  report.detail = run.detail;
   report.device = text_of(run.device.info());
   report.warnings = leaves.warnings;
   report.density = prepared.statistics;

@@ -12,6 +12,9 @@
 namespace leafhull {
 namespace {
 
+/// The most ranks that DensityFunction::Lists::keep_few keeps.
+constexpr std::size_t kFewRanks = std::size_t{1} << 24;
+
 /// An offset as it is added to its frame's origin: unchanged for floats, else rounded to 2^-20.
 template <class T>
 Vec3d rounded(Vec3f offset) {
@@ -90,12 +93,16 @@ DensityFunction::Sampled DensityFunction::sample(const BandOptions& options, Fie
   result.field = std::move(empty);
   Field& field = result.field;
   lists_.reset();
-  if (lists == Lists::keep) lists_.emplace();
+  if (lists != Lists::forget) lists_.emplace();
   const auto inside = find_band(kernels_, options, [&](const BrickList& bricks, double done) {
     const std::size_t size = bricks.size() * kBrickSamples;
     const auto samples = std::make_unique_for_overwrite<float[]>(size);
     result.pairs += evaluator_.sample(bricks, {samples.get(), size});
     field.add_bricks(bricks.origins, {samples.get(), size});
+    if (lists_ && lists == Lists::keep_few &&
+        lists_->kernels.size() + bricks.kernels.size() > kFewRanks) {
+      lists_.reset();
+    }
     if (lists_) lists_->append(bricks);
     advance(done);
   });

@@ -39,7 +39,9 @@ class DensityFunction {
     Field field;
     std::uint64_t pairs = 0;  ///< kernel-sample pairs evaluated
   };
-  enum class Lists { forget, keep };  ///< whether to keep the lists of kernels near each brick
+  /// Whether to keep the lists of kernels near each brick: never, if they are no more than a batch
+  /// of the band (64 MiB), or all.
+  enum class Lists { forget, keep_few, keep };
   /// N where a surface N = T may be, for all `thresholds`, ascending; if `dense`, wherever a
   /// support reaches. Blocks are grown by `margin` voxels before they are decided. `advance` gets
   /// the share that is done. The field's own threshold is the lowest.
@@ -48,7 +50,8 @@ class DensityFunction {
   /// As above for one threshold, in the bricks that meet `range`.
   Sampled sample_band(double threshold, const SampleBox& range);
 
-  /// The kernels near each brick of the last field sampled, in the field's order, if kept.
+  /// The kernels near each brick of the last field sampled, in the field's order, if kept; valid
+  /// until the next is sampled.
   const BrickList* lists() const { return lists_ ? &*lists_ : nullptr; }
 
   /// Moves points onto N = threshold within their cells, in at most `steps` steps, and returns the

@@ -17,7 +17,7 @@ Shape extract(const LeafSet& leaves, const Options& asked, Device& device, const
   Sliders sliders(run, stages, resolve(asked));
 
   Prepared prepared = sliders.prepare();
-  auto [sampled, pieces] = sliders.surface(prepared, DensityFunction::Lists::keep);
+  auto [sampled, pieces] = sliders.surface(prepared, DensityFunction::Lists::keep_few);
   if (pieces.polygons.points.empty()) {
     refuse_empty(prepared, *stages.there(prepared), sampled.field);
   }

@@ -164,7 +164,7 @@ TEST(Points, ManyInOnePlaceComeInBatches) {
 TEST(Points, KeepTheirCellWhereFloatsAreCoarse) {
   const Near near;
   // As a float the first one's offset from its frame would be 16.
-  const std::vector<Vec3d> points{{-1e-8, 3.5, 3.5}, {7 - 1e-8, -1e-9, 3.5}};
+  const std::vector<Vec3d> points{{-1e-8, 3.5, 3.5}, {7 - 1e-8, -1e-9, 3.5}, {-1e-17, 3.5, -1e-17}};
   find_kernels_near(near.set, points, {Within::cell, 8}, [&](const PointBatch& batch) {
     for (const PointGroup& group : batch.groups) {
       for (std::size_t i = group.chunk * 8; i < (group.chunk + group.count) * 8; ++i) {

@@ -224,6 +224,22 @@ TEST(Outputs, FailOnEveryFormatThatDoesNotFit) {
   }
 }
 
+TEST(Outputs, RefuseWhatAShapeAloneLacks) {
+  const TemporaryFolder folder;
+  Shape shape = sample_shape();
+  shape.report.detail = Detail::shape;
+  shape.isotropic_density.clear();
+  const auto write = [&](OutputFiles files) {
+    files.shapes = {folder / "a.ply"};
+    write_outputs(plan_outputs(files, "tree.glb"), shape, {});
+  };
+  EXPECT_THROW(write({.kernels = folder / "k.ply"}), Error);
+  EXPECT_THROW(write({.report = folder / "r.json"}), Error);
+  EXPECT_TRUE(folder.names().empty());
+  write({});
+  EXPECT_EQ(folder.names(), Names{"a.ply"});
+}
+
 TEST(Outputs, WriteTheReportToStandardOutput) {
   const TemporaryFolder folder;
   ::testing::internal::CaptureStdout();
