@@ -273,7 +273,7 @@ class Search {
     batch.boxes.push_back(boxes);
   }
 
-  /// Where points of the box [low, high] are evaluated, rounding included.
+  /// The box in which points between `low` and `high` may be evaluated, rounding included.
   PlaceBox places_in(Vec3f low, Vec3f high) const {
     if (how_.within == Within::cell) {
       const auto below = [](Vec3f p) {

@@ -39,8 +39,8 @@ class DensityFunction {
     Field field;
     std::uint64_t pairs = 0;  ///< kernel-sample pairs evaluated
   };
-  /// Whether to keep the lists of kernels near each brick: never, if they are no more than a batch
-  /// of the band (64 MiB), or all.
+  /// Whether to keep the lists of kernels near each brick: never, only while they take 64 MiB or
+  /// less, or always.
   enum class Lists { forget, keep_few, keep };
   /// N where a surface N = T may be, for all `thresholds`, ascending; if `dense`, wherever a
   /// support reaches. Blocks are grown by `margin` voxels before they are decided. `advance` gets
