@@ -113,10 +113,22 @@ static Marks marks_of(global const NearKernel* near, uint count, ChunkBoxes boxe
   return marks;
 }
 
-// Fetches the kernels of a group's list and marks those that reach its chunks. `boxes` has CHUNKS
-// numbers for each member of ChunkBoxes.
-static void mark(global const Kernel* kernels, global const Group* group, global const uint* list,
-                 global const float* boxes, global NearKernel* near, global uint* marks) {
+// A group with the kernels of its list and their marks.
+typedef struct {
+  global const Group* group;
+  global const NearKernel* near;
+  global const uint* marks;
+} Marked;
+
+// Fetches the kernels of a group's list and marks those that reach its chunks. `all_boxes` has
+// CHUNKS numbers for each member of ChunkBoxes.
+static Marked mark(global const Kernel* kernels, global const Group* groups,
+                   global const uint* list, global const float* all_boxes,
+                   global NearKernel* all_near, global uint* all_marks) {
+  global const Group* group = groups + GROUP;
+  global const float* boxes = all_boxes + GROUP * 6 * CHUNKS;
+  global NearKernel* near = all_near + group->entry;
+  global uint* marks = all_marks + group->entry / RUN * CHUNKS;
   const uint size = group->end - group->first;
   const uint runs = (size + RUN - 1) / RUN;
   const int4 origin = {group->origin[0], group->origin[1], group->origin[2], 0};
@@ -145,6 +157,7 @@ static void mark(global const Kernel* kernels, global const Group* group, global
     vstore8(marks_of(near + begin, min((uint)RUN, size - begin), all), run, marks);
   }
 #endif
+  return (Marked){group, near, marks};
 }
 
 static Real3 scaled(Real3 v, real s) { return (Real3){v.x * s, v.y * s, v.z * s}; }
@@ -158,15 +171,16 @@ typedef struct {
   Real3 gradient;
 } Sample;
 
-// Sums at the points of a chunk; `marks` are those of the chunk.
-static Sample density_at(global const NearKernel* near, uint size, global const uint* marks,
-                         Real3 p) {
+// Sums at the points of a chunk.
+static Sample density_at(Marked of, uint chunk, Real3 p) {
+  const uint size = of.group->end - of.group->first;
+  global const uint* marks = of.marks + chunk;
   Sample s = {REAL(0.0f), {REAL(0.0f), REAL(0.0f), REAL(0.0f)}};
   for (uint begin = 0; begin < size; begin += RUN, marks += CHUNKS) {
     for (uint marked = *marks; marked;) {
       const uint i = clz(marked);
       marked ^= FIRST_OF_RUN >> i;
-      global const NearKernel* k = near + begin + i;
+      global const NearKernel* k = of.near + begin + i;
       const real dx = p.x - k->x, dy = p.y - k->y, dz = p.z - k->z;
       const real u = fma(REAL(k->xx), dx, fma(REAL(k->xy), dy, k->xz * dz));
       const real v = fma(REAL(k->yy), dy, k->yz * dz);
@@ -191,13 +205,11 @@ kernel void density_points(global const Kernel* restrict kernels,
                            global uint* restrict all_marks, global const float* restrict xs,
                            global const float* restrict ys, global const float* restrict zs,
                            global float* restrict density) {
-  global const Group* group = groups + GROUP;
-  global NearKernel* near = all_near + group->entry;
-  global uint* marks = all_marks + group->entry / RUN * CHUNKS;
-  mark(kernels, group, list, boxes + GROUP * 6 * CHUNKS, near, marks);
+  const Marked marked = mark(kernels, groups, list, boxes, all_near, all_marks);
+  global const Group* group = marked.group;
   FOR_EACH_CHUNK(c) {
     const Real3 p = {LOAD(c, xs), LOAD(c, ys), LOAD(c, zs)};
-    STORE(density_at(near, group->end - group->first, marks + c, p).density, c, density);
+    STORE(density_at(marked, c, p).density, c, density);
   }
 }
 
@@ -258,10 +270,8 @@ kernel void snap_points(global const Kernel* restrict kernels, global const Grou
                         global float* restrict ys, global float* restrict zs,
                         global float* restrict nxs, global float* restrict nys,
                         global float* restrict nzs) {
-  global const Group* group = groups + GROUP;
-  global NearKernel* near = all_near + group->entry;
-  global uint* marks = all_marks + group->entry / RUN * CHUNKS;
-  mark(kernels, group, list, boxes + GROUP * 6 * CHUNKS, near, marks);
+  const Marked marked = mark(kernels, groups, list, boxes, all_near, all_marks);
+  global const Group* group = marked.group;
   FOR_EACH_CHUNK(c) {
     const int corners = steps + 8, end = steps > 0 ? corners + HALVINGS : 0;
     Real3 p = {LOAD(c, xs), LOAD(c, ys), LOAD(c, zs)};
@@ -273,7 +283,7 @@ kernel void snap_points(global const Kernel* restrict kernels, global const Grou
     real nearest = REAL(INFINITY), before = REAL(0.0f), behind = REAL(1.0f), t = REAL(0.5f);
     Vertex start = best;
     for (int i = 0;; ++i) {
-      const Sample s = density_at(near, group->end - group->first, marks + c, p);
+      const Sample s = density_at(marked, c, p);
       const Vertex v = {p, s.gradient, s.density - threshold};
       if (i <= steps || i > corners) {
         const truth closer = off & (fabs(v.miss) < fabs(best.miss));
