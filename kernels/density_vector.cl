@@ -8,17 +8,13 @@
 //
 // Global size: the number of bricks; local size 1.
 #include "density.clh"
-
-#define RUN 32
-#define FIRST_OF_RUN 0x80000000u
+#include "marks.clh"
 
 #define SUB_BRICKS 8
 #define SUB_BRICK_SAMPLES 64
 
-// Half the extent of a sub-brick's samples, widened by the rounding of a position; and the rounding
-// of xi, a share of the top.
+// Half the extent of a sub-brick's samples, widened by the rounding of a position.
 #define HALF 1.500015f
-#define XI_SLACK 1.0001f
 
 typedef struct {
   float8 from_kernel[RUN][3];  // U . (centre of each sub-brick - centre of the kernel)

@@ -18,6 +18,7 @@
 #define LANES CHUNK_POINTS
 #endif
 #include "lanes.clh"
+#include "marks.clh"
 
 #ifndef CHUNKS
 #define CHUNKS 8
@@ -53,12 +54,6 @@ typedef struct {
 #define STORE(v, c, p) vstore16(v, group->chunk + c, p)
 #endif
 #endif
-
-// Marks are taken in runs of 32 kernels: for each chunk a bit per kernel, the highest for the
-// first.
-#define RUN 32
-#define FIRST_OF_RUN 0x80000000u
-#define XI_SLACK 1.0001f  // the rounding of xi, a share of the top
 
 // A GPU's work-item marks one chunk at a time, a CPU's all of them.
 #if LANES == 1
