@@ -137,15 +137,16 @@ TEST(Points, KnownListsAreTaken) {
   const Vec3d point = near.lattice.local(near.kernels.front().centre);
   BrickList known;
   known.add(block_origin(cell_of(point), kBrickEdge), std::vector<std::uint32_t>{3, 5, 8});
-  const std::vector<Vec3d> points{point, point + Vec3d(0, kBrickEdge, 0)};
+  const Vec3d side(0, kBrickEdge, 0);
+  const std::vector<Vec3d> points{point, point - side, point + side};
   std::vector<std::size_t> sizes;
   find_kernels_near(near.set, points, {Within::cell, 8, &known}, [&](const PointBatch& batch) {
     for (std::size_t b = 0; b < batch.bricks.size(); ++b) {
       sizes.push_back(batch.bricks.list(b).size());
     }
   });
-  ASSERT_EQ(sizes.size(), 2u);
-  EXPECT_EQ(std::ranges::count(sizes, 3u), 1) << "the other brick's list is not known";
+  ASSERT_EQ(sizes.size(), 3u);
+  EXPECT_EQ(std::ranges::count(sizes, 3u), 1) << "the lists of the bricks beside it are not known";
 }
 
 TEST(Points, ManyInOnePlaceComeInBatches) {
