@@ -68,20 +68,10 @@ std::vector<Support> supports_of(std::span<const Kernel> kernels) {
   return {kernels.begin(), kernels.end()};
 }
 
-/// Whether a kernel may reach the box of a chunk, as points.cl decides it.
-bool reaches(const LatticeKernel& k, Coord origin, const ChunkBoxes& boxes, std::size_t chunk) {
+/// The box of a chunk.
+PlaceBox box_of(const ChunkBoxes& boxes, std::size_t chunk) {
   const auto row = [&](std::size_t i) { return boxes[i][chunk]; };
-  const float dx = row(0) - (static_cast<float>(k.cell.x - origin.x) + k.offset.x);
-  const float dy = row(1) - (static_cast<float>(k.cell.y - origin.y) + k.offset.y);
-  const float dz = row(2) - (static_cast<float>(k.cell.z - origin.z) + k.offset.z);
-  const auto beyond = [](float middle, float half) {
-    return std::max(std::abs(middle) - half, 0.0f);
-  };
-  const float x = beyond(k.xx * dx + k.xy * dy + k.xz * dz,
-                         k.xx * row(3) + std::abs(k.xy) * row(4) + std::abs(k.xz) * row(5));
-  const float y = beyond(k.yy * dy + k.yz * dz, k.yy * row(4) + std::abs(k.yz) * row(5));
-  const float z = beyond(k.zz * dz, k.zz * row(5));
-  return x * x + y * y + z * z < k.top;
+  return {{row(0), row(1), row(2)}, {row(3), row(4), row(5)}};
 }
 
 }  // namespace
@@ -131,19 +121,19 @@ std::uint64_t pairs_evaluated(std::span<const Kernel> kernels, const LeafSet& le
   }
   std::uint64_t pairs = 0;
   constexpr std::size_t kChunkPoints = 8;
+  const auto count = [&](const PointBatch& batch) {
+    for (std::size_t g = 0; g < batch.groups.size(); ++g) {
+      const PointGroup& group = batch.groups[g];
+      for (std::uint32_t i = group.first; i < group.end; ++i) {
+        const LatticeKernel& kernel = set.kernels()[batch.bricks.kernels[i]];
+        for (std::size_t c = 0; c < group.count; ++c) {
+          if (reaches(kernel, group.origin, box_of(batch.boxes[g], c))) pairs += kChunkPoints;
+        }
+      }
+    }
+  };
   find_kernels_near(set, std::span<const leafhull::Vec3d>(points), {Within::point, kChunkPoints},
-                    [&](const PointBatch& batch) {
-                      for (std::size_t g = 0; g < batch.groups.size(); ++g) {
-                        const PointGroup& group = batch.groups[g];
-                        for (std::uint32_t i = group.first; i < group.end; ++i) {
-                          const LatticeKernel& kernel = set.kernels()[batch.bricks.kernels[i]];
-                          for (std::size_t c = 0; c < group.count; ++c) {
-                            if (reaches(kernel, group.origin, batch.boxes[g], c))
-                              pairs += kChunkPoints;
-                          }
-                        }
-                      }
-                    });
+                    count);
   return pairs;
 }
 

@@ -107,7 +107,7 @@ DensityStatistics band(double mean, double variance, const DensityQuantile& quan
                       .variance = variance,
                       .p1 = density_at(options.low),
                       .p2 = density_at(options.high)};
-  if (s.p1 > s.p2) refuse_upside_down(s, options);
+  if (s.p1 > s.p2 && options.method == Method::controlled) refuse_upside_down(s, options);
   if (area && options.low.percent && options.high.percent) {
     const double missing = std::max(0.0, 2 * kLeastSpread * mean - (s.p2 - s.p1));
     s.p1 -= missing / 2;

@@ -44,7 +44,7 @@ DensityStatistics density_statistics(std::span<const LeafPoint> leaves,
 using DensityQuantile = std::function<double(double share)>;
 
 /// Density statistics from a mean, a variance and quantiles.
-/// @throws Error usage: p1 above p2.
+/// @throws Error usage: p1 above p2, with Method::controlled.
 DensityStatistics band(double mean, double variance, const DensityQuantile& quantile,
                        const ControlOptions& options);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "density/falloff.h"
@@ -27,6 +28,28 @@ static_assert(sizeof(LatticeKernel) == 52);
 inline constexpr float kPositionSlack = 1e-5f;
 inline constexpr float kDistanceSlack = 4e-7f;
 inline constexpr float kXiSlack = 1e-4f;
+
+/// A box around places that are evaluated, in voxels from an origin nearby.
+struct PlaceBox {
+  Vec3f centre, half;
+};
+
+/// Whether a kernel's support may reach the box, which is counted from `origin`, by the bound on xi
+/// of octants.h.
+inline bool reaches(const LatticeKernel& k, Coord origin, const PlaceBox& box) {
+  const float dx = static_cast<float>(k.cell.x - origin.x) + k.offset.x - box.centre.x;
+  const float dy = static_cast<float>(k.cell.y - origin.y) + k.offset.y - box.centre.y;
+  const float dz = static_cast<float>(k.cell.z - origin.z) + k.offset.z - box.centre.z;
+  const auto beyond = [](float middle, float extent) {
+    return std::max(std::fabs(middle) - extent, 0.0f);
+  };
+  const Vec3f h = box.half;
+  const float x = beyond(k.xx * dx + k.xy * dy + k.xz * dz,
+                         k.xx * h.x + std::fabs(k.xy) * h.y + std::fabs(k.xz) * h.z);
+  const float y = beyond(k.yy * dy + k.yz * dz, k.yy * h.y + std::fabs(k.yz) * h.z);
+  const float z = beyond(k.zz * dz, k.zz * h.z);
+  return x * x + y * y + z * z < k.top * (1.0f + kXiSlack);
+}
 
 inline bool is_isotropic(const Kernel& kernel) {
   return kernel.radius_major == kernel.radius_minor && kernel.radius_major == kernel.radius_normal;

@@ -63,6 +63,23 @@ TEST(Detail, SumsNothingAtTheLeavesThatNobodyNeeds) {
   EXPECT_TRUE(has_stage(extract(ash(), options, device()), "metrics"));
 }
 
+TEST(Detail, ABandThatHasNoEffectIsNotRefused) {
+  Options options = test::at(Preset::draft);
+  options.band_low = 1;
+  options.band_high_percent = 1;
+  for (const Method method : {Method::isotropic, Method::uncontrolled, Method::controlled}) {
+    options.method = method;
+    for (const Detail detail : {Detail::shape, Detail::report}) {
+      const auto run = [&] { (void)extract(ash(), options, device(), {}, detail); };
+      if (method == Method::controlled) {
+        EXPECT_THROW(run(), Error);
+      } else {
+        EXPECT_NO_THROW(run());
+      }
+    }
+  }
+}
+
 TEST(Detail, AnEmptyShapeIsRefusedInTheSameWords) {
   Options options = test::at(Preset::draft);
   options.method = Method::isotropic;
